@@ -6,9 +6,9 @@
 
 static int missed;
 
-void bars_hold(const char *what, double value, double most) {
-  if (value <= most) return;
-  printf("missed: %s is %.3g, at most %.3g is allowed\n", what, value, most);
+void bars_hold(const char *what, double value, double max) {
+  if (value <= max) return;
+  printf("missed: %s is %.3g, at most %.3g is allowed\n", what, value, max);
   missed++;
 }
 

@@ -4,7 +4,7 @@
 #define HR2D_BENCH_BARS_H
 
 /* Prints that a value is above its bar, if it is. */
-void bars_hold(const char *what, double value, double most);
+void bars_hold(const char *what, double value, double max);
 
 /* How many bars were missed so far, as the status of a program. */
 int bars_status(void);

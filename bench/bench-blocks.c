@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Measures what a block of two elements costs, by order and by what is between them.  The
-   sights of the two are known from the block before. */
+   line classes of the two are known from the block before. */
 #include <stdio.h>
 
 #include "bars.h"

@@ -150,11 +150,11 @@ static void forget(stage *s) {
 
 /* A scene as it is before commit, or committed without a budget. */
 static hr2d_status make(stage *s, const budget_kind *kind, size_t patches, int committed) {
-  const size_t most = kind->patches;
+  const size_t max = kind->patches;
   forget(s);
   hr2d_status status = hr2d_scene_create(NULL, &s->scene);
   s->end = wall_seconds() + MAKES;
-  if (!status) status = kind->add(s->scene, most && most < patches ? most : patches);
+  if (!status) status = kind->add(s->scene, max && max < patches ? max : patches);
   if (!status && committed) status = commit(s);
   return status;
 }

@@ -26,8 +26,8 @@ enum { MOST_PAIRED = 3000 };
 #define STOPPED ((hr2d_status)77)
 
 typedef struct stopwatch {
-  double cpu, wall;   /* of the last question */
-  double start, most; /* of the call, by the thread's clock */
+  double cpu, wall;  /* of the last question */
+  double start, max; /* of the call, by the thread's clock */
   double longest_cpu, longest_wall;
   unsigned long asks;
   const char *phase; /* of the longest */
@@ -54,7 +54,7 @@ static hr2d_status ask(void *ctx, const hr2d_progress *progress) {
   stopwatch *w = ctx;
   w->asks++;
   look(w, progress->phase);
-  return w->cpu - w->start > w->most ? STOPPED : HR2D_OK;
+  return w->cpu - w->start > w->max ? STOPPED : HR2D_OK;
 }
 
 static int needs_pairs(const char *phase) {
@@ -64,10 +64,10 @@ static int needs_pairs(const char *phase) {
   return 0;
 }
 
-static stopwatch start(double most) {
+static stopwatch start(double max) {
   const double cpu = now(CLOCK_THREAD_CPUTIME_ID);
   return (stopwatch){
-      .cpu = cpu, .start = cpu, .wall = now(CLOCK_MONOTONIC), .most = most, .phase = ""};
+      .cpu = cpu, .start = cpu, .wall = now(CLOCK_MONOTONIC), .max = max, .phase = ""};
 }
 
 static int measure(slow_kind kind, const slow_phase *phase, const slow_stage *like) {

@@ -102,13 +102,13 @@ static void measure_forced(double epsilon) {
   bars_hold("forced occlusion", with / without, 1.1);
 }
 
-static void measure_refinements(int most, double epsilon) {
+static void measure_refinements(int max, double epsilon) {
   printf("1/epsilon = %g\n%-8s%6s%10s%12s%12s%10s%12s%10s%8s%10s\n", 1 / epsilon, "", "n",
          "ns/root", "root links", "made", "partial", "blocked", "ns/link", "ratio",
          "ns/shaded");
   const double convex = measure_links(0, epsilon, 0).link;
   double last = 0;
-  for (int n = 10; n <= most; n *= 10) {
+  for (int n = 10; n <= max; n *= 10) {
     const link_cost cost = measure_links(n, epsilon, convex);
     if (last > 0)
       bars_hold("growth of the cost of a shaded pair", cost.shaded / last,

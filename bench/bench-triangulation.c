@@ -72,13 +72,13 @@ static void draw_slit(randoms *r, hr2d_segment *wall, size_t count) {
   }
 }
 
-static int measure(const char *name, draw_fn draw, size_t most) {
+static int measure(const char *name, draw_fn draw, size_t max) {
   double cost[3] = {0};
   const hr2d_allocator alloc = hr2di_alloc_default();
-  hr2d_segment *wall = malloc(most * sizeof *wall);
+  hr2d_segment *wall = malloc(max * sizeof *wall);
   int failed = wall == NULL;
   for (int size = 0; size < 3 && !failed; size++) {
-    const size_t count = (size == 0 ? most / 100 : size == 1 ? most / 10 : most) / 4 * 4;
+    const size_t count = (size == 0 ? max / 100 : size == 1 ? max / 10 : max) / 4 * 4;
     randoms r = randoms_stream(1, size);
     draw(&r, wall, count);
     double seconds[3];
@@ -106,12 +106,12 @@ static int measure(const char *name, draw_fn draw, size_t most) {
 }
 
 int main(int argc, char **argv) {
-  const size_t most = argc > 1 ? (size_t)atol(argv[1]) : 1000000;
+  const size_t max = argc > 1 ? (size_t)atol(argv[1]) : 1000000;
   int missed = 0;
-  missed += measure("squares", draw_squares, most);
-  missed += measure("mixed", draw_mixed, most);
-  missed += measure("round", draw_round, most);
-  missed += measure("star", draw_star, most);
-  missed += measure("slit", draw_slit, most);
+  missed += measure("squares", draw_squares, max);
+  missed += measure("mixed", draw_mixed, max);
+  missed += measure("round", draw_round, max);
+  missed += measure("star", draw_star, max);
+  missed += measure("slit", draw_slit, max);
   return missed ? EXIT_FAILURE : EXIT_SUCCESS;
 }

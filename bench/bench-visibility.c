@@ -135,25 +135,25 @@ static void measure_views(const plan_family *f) {
   enum { VIEWS = 2000 };
   hr2d_scene *scene = plan_scene(f->draw, f->size, 0);
   const hr2d_allocator alloc = hr2di_alloc_default();
-  hr2di_viewer *viewer;
+  hr2di_point_viewer *viewer;
   double seconds[MOST_ROUNDS];
-  size_t glimpses = 0;
+  size_t intervals = 0;
   for (int round = 0; round < 5; round++) {
-    glimpses = 0;
+    intervals = 0;
     plan_random_start(20250103);
     const double start = cpu_seconds();
-    if (hr2di_viewer_create(scene, &alloc, NULL, &viewer)) bars_fail("no viewer");
+    if (hr2di_point_viewer_create(scene, &alloc, NULL, &viewer)) bars_fail("no viewer");
     for (int k = 0; k < VIEWS; k++) {
       hr2di_view_from seen;
       const size_t patch = (size_t)plan_random(0, (double)hr2d_scene_patches(scene));
       if (hr2di_view_at(viewer, patch, plan_random(0, 1), &seen)) bars_fail("no view");
-      glimpses += seen.count;
+      intervals += seen.count;
     }
-    hr2di_viewer_destroy(viewer);
+    hr2di_point_viewer_destroy(viewer);
     seconds[round] = cpu_seconds() - start;
   }
   printf("%-8s%8zu%12.0f%12.1f\n", f->name, hr2d_scene_patches(scene),
-         VIEWS / median_of(seconds, 5), (double)glimpses / VIEWS);
+         VIEWS / median_of(seconds, 5), (double)intervals / VIEWS);
   hr2d_scene_destroy(scene);
 }
 

@@ -102,16 +102,15 @@ void plan_random_start(uint64_t seed) {
   state = seed;
 }
 
-double plan_random(double least, double most) {
+double plan_random(double min, double max) {
   state = state * 6364136223846793005u + 1442695040888963407u;
-  return least + (most - least) * ((double)(state >> 11) * 0x1p-53);
+  return min + (max - min) * ((double)(state >> 11) * 0x1p-53);
 }
 
 /* `count` discs in the unit square that do not meet. */
-static void draw_discs(int count, double least, double most, hr2d_point *centre,
-                       double *radius) {
+static void draw_discs(int count, double min, double max, hr2d_point *centre, double *radius) {
   for (int k = 0; k < count;) {
-    const double r = radius[k] = plan_random(least, most);
+    const double r = radius[k] = plan_random(min, max);
     const hr2d_point c = centre[k] = (hr2d_point){plan_random(r, 1 - r), plan_random(r, 1 - r)};
     int m = 0;
     while (m < k) {
@@ -124,13 +123,13 @@ static void draw_discs(int count, double least, double most, hr2d_point *centre,
 }
 
 /* Calls `put` for each of `count` discs. */
-static void scatter(plan *p, int count, double least, double most,
+static void scatter(plan *p, int count, double min, double max,
                     void (*put)(plan *, hr2d_point, double)) {
   hr2d_point *centre = malloc(((size_t)count + 1) * sizeof *centre);
   double *radius = malloc(((size_t)count + 1) * sizeof *radius);
   if (!centre || !radius) bars_fail("out of memory");
   state = 20250101;
-  draw_discs(count, least / sqrt(count), most / sqrt(count), centre, radius);
+  draw_discs(count, min / sqrt(count), max / sqrt(count), centre, radius);
   for (int k = 0; k < count; k++) put(p, centre[k], radius[k]);
   free(centre);
   free(radius);

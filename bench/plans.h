@@ -32,7 +32,7 @@ hr2d_scene *plan_patches(plan_fn draw, int n, int lamps);
 hr2d_scene *plan_scene(plan_fn draw, int n, int forced);
 
 /* A number in [least, most) of the generator that plans draw from. */
-double plan_random(double least, double most);
+double plan_random(double min, double max);
 void plan_random_start(uint64_t seed);
 
 /* Kinds of scenes whose figures have bars. */

@@ -27,15 +27,15 @@ static double length(hr2d_segment s) {
 }
 
 /* The least and largest exponents of coordinates but zeros. */
-static void exponents(const double *x, size_t count, int *least, int *most) {
-  *least = 2000;
-  *most = -2000;
+static void exponents(const double *x, size_t count, int *min, int *max) {
+  *min = 2000;
+  *max = -2000;
   for (size_t k = 0; k < count; k++) {
     int e;
     if (x[k] == 0) continue;
     frexp(x[k], &e);
-    if (e < *least) *least = e;
-    if (e > *most) *most = e;
+    if (e < *min) *min = e;
+    if (e > *max) *max = e;
   }
 }
 
@@ -64,9 +64,9 @@ static double area_of(pair p) {
 }
 
 static void check_scaling(const pair *p, double area, int exponent) {
-  int least, most;
-  exponents(&p->i.a.x, 8, &least, &most);
-  if (least - 53 + exponent < -1000 || most + exponent > 1000) return;
+  int min, max;
+  exponents(&p->i.a.x, 8, &min, &max);
+  if (min - 53 + exponent < -1000 || max + exponent > 1000) return;
   const pair q = scaled(p, exponent);
   const double expected = ldexp(area, exponent), other = area_of(q);
   if (fmin(area, ldexp(other, -exponent)) < DBL_MIN || fmin(expected, other) < DBL_MIN) {
@@ -99,15 +99,15 @@ static void check_halves(const pair *p, double area) {
 }
 
 static void check_area(const pair *p, int exponent) {
-  int least, most;
-  exponents(&p->i.a.x, 8, &least, &most);
+  int min, max;
+  exponents(&p->i.a.x, 8, &min, &max);
   const double area = area_of(*p), shorter = fmin(length(p->i), length(p->j));
   REQUIRE(fuzz_same_bits(area, area_of((pair){p->j, p->i})));
   REQUIRE(isfinite(area) && area >= 0);
   REQUIRE(area <= shorter * (1 + 1e-14) + DBL_TRUE_MIN);
   const double by_quarter = area_of((pair){turned(p->i), turned(p->j)});
-  if (-PLAIN < least && most < PLAIN) REQUIRE(fuzz_same_bits(area, by_quarter));
-  if (most - least >= MOST_SCALES) return;
+  if (-PLAIN < min && max < PLAIN) REQUIRE(fuzz_same_bits(area, by_quarter));
+  if (max - min >= MOST_SCALES) return;
   REQUIRE(fabs(by_quarter - area) <= 2 * AREA_BOUND * fmax(area, DBL_MIN) + 4 * DBL_TRUE_MIN);
   const double other = area_of((pair){mirrored(p->i), mirrored(p->j)});
   REQUIRE(fabs(other - area) <= 2 * AREA_BOUND * fmax(area, DBL_MIN) + 4 * DBL_TRUE_MIN);
@@ -149,14 +149,14 @@ static void check_occluded(const pair *p, const hr2d_segment *other, size_t coun
   }
   REQUIRE(fuzz_same_bits(one, swapped));
   /* Coordinates are divided by the largest, and exchange areas may be denormal then. */
-  int least, most;
-  exponents(&p->i.a.x, 8, &least, &most);
+  int min, max;
+  exponents(&p->i.a.x, 8, &min, &max);
   for (size_t k = 0; k < count; k++) {
     int low, high;
     exponents(&other[k].a.x, 4, &low, &high);
-    if (high > most) most = high;
+    if (high > max) max = high;
   }
-  const double denormal = ldexp(4 * DBL_TRUE_MIN, most > 0 ? most : 0);
+  const double denormal = ldexp(4 * DBL_TRUE_MIN, max > 0 ? max : 0);
   if (!(isfinite(one) && one >= 0 && one <= all * (1 + 1e-12) + denormal)) {
     char text[100];
     snprintf(text, sizeof text, "%.17g of %.17g", one, all);
@@ -168,20 +168,20 @@ static void check_occluded(const pair *p, const hr2d_segment *other, size_t coun
 
 /* Where lengths and their squares exist. */
 static int is_moderate(const double *x, size_t count) {
-  int least, most;
+  int min, max;
   for (size_t k = 0; k < count; k++)
     if (!isfinite(x[k])) return 0;
-  exponents(x, count, &least, &most);
-  return most < 1000;
+  exponents(x, count, &min, &max);
+  return max < 1000;
 }
 
 /* Whether the scales of the pair and of the occluders are so close that scaling both does
    not make the pair vanish. */
 static int is_like(const pair *p, const hr2d_segment *other, size_t count) {
-  int least, most, others_least, others_most;
-  exponents(&p->i.a.x, 8, &least, &most);
-  exponents(&other->a.x, 4 * count, &others_least, &others_most);
-  return fmax(most, others_most) - fmin(least, others_least) < MOST_SCALES;
+  int min, max, others_min, others_max;
+  exponents(&p->i.a.x, 8, &min, &max);
+  exponents(&other->a.x, 4 * count, &others_min, &others_max);
+  return fmax(max, others_max) - fmin(min, others_min) < MOST_SCALES;
 }
 
 /* Prints the segments as numbers, to reproduce a finding. */
@@ -199,9 +199,9 @@ static void check_pair(const pair *p, const hr2d_segment *other, size_t count, i
   if (!is_moderate(&p->i.a.x, 8) || !(length(p->i) > 0) || !(length(p->j) > 0)) return;
   check_area(p, exponent);
   check_kernel(p);
-  int least, most;
-  exponents(&p->i.a.x, 8, &least, &most);
-  if (most - least < MOST_SCALES) {
+  int min, max;
+  exponents(&p->i.a.x, 8, &min, &max);
+  if (max - min < MOST_SCALES) {
     check_orientation(p->i.a, p->i.b, p->j.a);
     check_orientation(p->i.a, p->i.b, p->j.b);
   }

@@ -85,8 +85,8 @@ extern const hr2d_oracle fuzz_oracle_symmetric, fuzz_oracle_directed;
 extern const hr2d_policy fuzz_policy_free;
 
 /* Adds patches whose coordinates are ulps apart, collinear, touching, crossing, on every
-   scale.  At most `most`. */
-void fuzz_fill_scene(fuzz_input *in, hr2d_scene *scene, size_t most);
+   scale.  At most `max`. */
+void fuzz_fill_scene(fuzz_input *in, hr2d_scene *scene, size_t max);
 
 /* Checks the matrix of a committed scene: exchange areas are finite, not negative and
    symmetric bit by bit, and no row exceeds the length of its patch. */

@@ -90,8 +90,8 @@ static int has_sliver(const hr2d_scene *scene) {
    them by as much for each of their four ends. */
 static void check_row(const hr2d_scene *scene, size_t patch, double sum, double terms) {
   const double length = hr2d_scene_length(scene, patch);
-  const double most = length * (1 + ROW_BOUND) + 4 * terms * grain(scene);
-  if (sum <= most || has_sliver(scene)) return;
+  const double max = length * (1 + ROW_BOUND) + 4 * terms * grain(scene);
+  if (sum <= max || has_sliver(scene)) return;
   char text[100];
   snprintf(text, sizeof text, "patch %zu: %.17g above %.17g", patch, sum, length);
   fuzz_fail(__FILE__, __LINE__, "sum of row <= length", text);
@@ -209,22 +209,22 @@ static int is_furnace(const hr2d_scene *scene, size_t band) {
 }
 
 static double brightest(const hr2d_scene *scene, size_t band) {
-  double most = 0;
+  double max = 0;
   for (size_t k = 0; k < hr2d_scene_patches(scene); k++)
-    most = fmax(most, hr2d_scene_reflectance(scene, k, band));
-  return most;
+    max = fmax(max, hr2d_scene_reflectance(scene, k, band));
+  return max;
 }
 
 /* The solver stops by the norm ∫B².  It hardly counts a very long patch, whose light is
    thinly spread, but the power of such a patch is as large as that of others. */
 int fuzz_is_even(const hr2d_scene *scene) {
-  double least = HUGE_VAL, most = 0;
+  double min = HUGE_VAL, max = 0;
   for (size_t k = 0; k < hr2d_scene_patches(scene); k++) {
     const double length = hr2d_scene_length(scene, k);
-    least = fmin(least, length);
-    most = fmax(most, length);
+    min = fmin(min, length);
+    max = fmax(max, length);
   }
-  return most < 1e4 * least;
+  return max < 1e4 * min;
 }
 
 /* Whether a negative flux takes heat away: then what comes in may be less than what is absorbed
@@ -242,8 +242,8 @@ static void check_power(const hr2d_solution *solution, size_t band, unsigned ord
   const hr2d_power p = hr2d_solution_power(solution, band);
   const double in = p.emitted + p.received;
   /* Above order 1 a quadrature rule gives the form factor of the background. */
-  const double least = order > 1 ? -1e-3 * p.emitted : 0;
-  REQUIRE(p.emitted >= 0 && p.received >= least);
+  const double min = order > 1 ? -1e-3 * p.emitted : 0;
+  REQUIRE(p.emitted >= 0 && p.received >= min);
   if (!balanced || !(in > 1e-280 && in < 1e300) ||
       fabs(in - p.absorbed - p.escaped) <= 1e-9 * in)
     return;
@@ -254,9 +254,9 @@ static void check_power(const hr2d_solution *solution, size_t band, unsigned ord
 }
 
 static double brightest_average(const hr2d_solution *solution, size_t n, size_t band) {
-  double most = 0;
-  for (size_t k = 0; k < n; k++) most = fmax(most, hr2d_solution_average(solution, k, band));
-  return most;
+  double max = 0;
+  for (size_t k = 0; k < n; k++) max = fmax(max, hr2d_solution_average(solution, k, band));
+  return max;
 }
 
 void fuzz_check_solution(const hr2d_solution *solution, unsigned order, int closure) {

@@ -72,10 +72,10 @@ static hr2d_point next_point(maker *m) {
 }
 
 static double emission(maker *m, double reflectance) {
-  const double most = m->furnace ? 1 - reflectance : 1;
+  const double max = m->furnace ? 1 - reflectance : 1;
   const unsigned b = fuzz_byte(m->in);
   if (!m->furnace && b > 250) return ldexp(1, ((int)b - 253) * 300);
-  return b & 1 ? most : b & 2 ? 0 : most * fuzz_unit(m->in);
+  return b & 1 ? max : b & 2 ? 0 : max * fuzz_unit(m->in);
 }
 
 /* Names as programs may give them: cut characters, Latin-1, surrogates, what a terminal obeys,
@@ -233,7 +233,7 @@ static void add_daylight(const maker *m, hr2d_scene *scene) {
     fuzz_check_message(hr2d_scene_message(scene));
 }
 
-void fuzz_fill_scene(fuzz_input *in, hr2d_scene *scene, size_t most) {
+void fuzz_fill_scene(fuzz_input *in, hr2d_scene *scene, size_t max) {
   static const int exponents[] = {0, 0, 0, 0, 20, -20, 100, -100, 340, -340, 500, -500};
   static const double offsets[] = {0, 0, 0, 0, 0, 1, 1e8, 1e15};
   const unsigned how = fuzz_byte(in);
@@ -244,7 +244,7 @@ void fuzz_fill_scene(fuzz_input *in, hr2d_scene *scene, size_t most) {
   m.offset = ldexp(offsets[fuzz_below(in, sizeof offsets / sizeof *offsets)], m.exponent);
   if (how & 2) add_background(&m, scene);
   if (how & 4) add_room(&m, scene);
-  for (unsigned k = fuzz_below(in, 12); k > 0 && hr2d_scene_patches(scene) + 8 < most; k--)
+  for (unsigned k = fuzz_below(in, 12); k > 0 && hr2d_scene_patches(scene) + 8 < max; k--)
     add_chain(&m, scene);
   if (how & 32)
     add_symmetry(&m, scene);

@@ -38,13 +38,13 @@ static void cut_row(dealer *d, size_t row, uint32_t pieces, const double *part) 
 /* A run ends where it has its part of the work of both kinds together. */
 static void cut_runs(dealer *d, const double *part) {
   const size_t patches = d->p->patches;
-  const double most = 1.0 / (RUNS_PER_RANK * d->p->ranks);
+  const double max = 1.0 / (RUNS_PER_RANK * d->p->ranks);
   run r = {.pieces = 1};
   for (size_t k = 0; k < patches; k++) {
     const uint32_t pieces = hr2dpi_long_rows_pieces(d->p, k);
     for (size_t kind = 0; kind < 2 && pieces == 1; kind++) r.part[kind] += part[2 * k + kind];
     r.to = pieces == 1 ? k + 1 : k;
-    if (size_of(&r) < most && k + 1 < patches && pieces == 1) continue;
+    if (size_of(&r) < max && k + 1 < patches && pieces == 1) continue;
     if (r.to > r.from) d->run[d->runs++] = r;
     if (pieces > 1) cut_row(d, k, pieces, &part[2 * k]);
     r = (run){.from = k + 1, .pieces = 1};
@@ -59,14 +59,14 @@ static int by_size(const void *left, const void *right) {
   return (l->piece > r->piece) - (l->piece < r->piece);
 }
 
-static int least_loaded(const dealer *d, const run *r) {
-  double least = HUGE_VAL;
+static int min_loaded(const dealer *d, const run *r) {
+  double min = HUGE_VAL;
   int found = 0;
   for (int rank = 0; rank < d->p->ranks; rank++) {
     const double *load = d->load + 2 * rank;
     const double then = fmax(load[0] + r->part[0], load[1] + r->part[1]);
-    if (then < least) {
-      least = then;
+    if (then < min) {
+      min = then;
       found = rank;
     }
   }
@@ -79,7 +79,7 @@ static void deal(dealer *d) {
   memset(units->rows, 0, d->p->patches);
   for (size_t k = 0; k < d->runs; k++) {
     const run *r = &d->run[k];
-    const int rank = least_loaded(d, r);
+    const int rank = min_loaded(d, r);
     d->load[2 * rank] += r->part[0];
     d->load[2 * rank + 1] += r->part[1];
     for (size_t row = r->from; row < r->to; row++)

@@ -180,15 +180,15 @@ PetscErrorCode hr2dpi_equation_set_unknown(hr2dpi_equation *s, const double *rad
 
 PetscErrorCode hr2dpi_equation_start(hr2dpi_equation *s, const double *radiosity) {
   PetscFunctionBegin;
-  double most = 0;
+  double upper = 0;
   for (size_t k = 0; k < s->field; k++) {
     s->radiosity[k] = ldexp(radiosity[k], -s->exponent[k % s->p->bands]);
-    most = isfinite(radiosity[k]) ? fmax(most, fabs(radiosity[k])) : HUGE_VAL;
+    upper = isfinite(radiosity[k]) ? fmax(upper, fabs(radiosity[k])) : HUGE_VAL;
   }
-  PetscCall(hr2dpi_max_doubles(s->p, &most, 1));
-  if (!isfinite(most))
+  PetscCall(hr2dpi_max_doubles(s->p, &upper, 1));
+  if (!isfinite(upper))
     PetscCall(hr2dpi_agree(s->p, hr2dpi_fail(s->p, HR2D_EINVAL, "the start is not finite")));
-  if (most > 0) PetscCall(hr2dpi_equation_set_unknown(s, s->radiosity));
+  if (upper > 0) PetscCall(hr2dpi_equation_set_unknown(s, s->radiosity));
   PetscFunctionReturn(0);
 }
 

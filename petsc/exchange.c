@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Areas of a patch add up to p->most times its length at most, so that bins add them up
+/* Areas of a patch add up to p->max times its length at most, so that bins add them up
    exactly.  Components of ranks are joined until no rank knows of a link between two of them.
  */
 #include "exchange.h"
@@ -27,7 +27,7 @@ static int join(uint32_t *parent, uint32_t i, uint32_t j) {
 
 static void add_area(hr2dpi_exchange *x, const hr2dp *p, hr2dpi_bin *bin, uint32_t patch,
                      double area) {
-  hr2dpi_bin_add(&bin[patch], hr2dpi_bin_scale(2 * p->most * x->length[patch]), area);
+  hr2dpi_bin_add(&bin[patch], hr2dpi_bin_scale(2 * p->max * x->length[patch]), area);
   x->linked[patch] = 1;
 }
 

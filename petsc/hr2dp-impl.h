@@ -65,7 +65,7 @@ struct hr2dp {
   hr2d_allocator alloc;
   size_t patches, bands, images; /* patches are those that were given */
   size_t roots;                  /* of the hierarchy: with images, and ends of a period */
-  double most; /* exchange areas of a patch are at most so many times its length, together */
+  double max; /* exchange areas of a patch are at most so many times its length, together */
   hr2d_oracle oracle;
   hr2d_policy policy;
   void *oracle_ctx, *policy_ctx;

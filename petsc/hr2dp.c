@@ -79,7 +79,7 @@ static PetscErrorCode create(hr2dp *p, MPI_Comm comm, const hr2dp_options *optio
   p->images = hr2d_scene_images(p->scene);
   /* Images that stand for others count up to so often: tests/unit/scene/check-period-weights.c.
    */
-  p->most = hr2d_scene_cut_off(p->scene) > 0 ? 2 * (double)p->images : 1;
+  p->max = hr2d_scene_cut_off(p->scene) > 0 ? 2 * (double)p->images : 1;
   p->bands = hr2d_scene_bands(p->scene);
   PetscCall(hr2dpi_agree(p, check_scene(p, options)));
   PetscCall(compare_scenes(p));

@@ -35,16 +35,15 @@ static PetscErrorCode measure(hr2dpi_equation *s, double *off) {
 }
 
 /* Takes the residual as the source, times a power of two that brings its power near 1. */
-static PetscErrorCode set_source(hr2dpi_equation *s, const double *residual, double *most) {
+static PetscErrorCode set_source(hr2dpi_equation *s, const double *residual, double *max) {
   PetscFunctionBegin;
   const size_t bands = s->p->bands;
-  for (size_t b = 0; b < bands; b++) most[b] = 0;
+  for (size_t b = 0; b < bands; b++) max[b] = 0;
   for (size_t k = 0; k < s->field; k++)
-    most[k % bands] = fmax(most[k % bands], fabs(s->weight[k / bands] * residual[k]));
-  PetscCall(hr2dpi_max_doubles(s->p, most, (int)bands));
-  for (size_t b = 0; b < bands; b++) most[b] = most[b] > 0 ? ilogb(most[b]) : 0;
-  for (size_t k = 0; k < s->field; k++)
-    s->source[k] = ldexp(residual[k], -(int)most[k % bands]);
+    max[k % bands] = fmax(max[k % bands], fabs(s->weight[k / bands] * residual[k]));
+  PetscCall(hr2dpi_max_doubles(s->p, max, (int)bands));
+  for (size_t b = 0; b < bands; b++) max[b] = max[b] > 0 ? ilogb(max[b]) : 0;
+  for (size_t k = 0; k < s->field; k++) s->source[k] = ldexp(residual[k], -(int)max[k % bands]);
   memset(s->y, 0, s->field * sizeof *s->y);
   PetscFunctionReturn(0);
 }

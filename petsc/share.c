@@ -192,16 +192,16 @@ static hr2d_status refine_above(hr2dp *p, hr2d_refine_options options) {
 static hr2d_status find_repeated(hr2dp *p) {
   const hr2d_element *element = hr2d_hierarchy_elements(p->hierarchy);
   const uint64_t links = hr2d_linkset_size(p->links);
-  const uint64_t most = p->top ? hr2d_linkset_size(p->top->links[0]) : 0;
+  const uint64_t max = p->top ? hr2d_linkset_size(p->top->links[0]) : 0;
   hr2dpi_free(p, p->repeated);
   p->repeats = 0;
-  p->repeated = hr2dpi_alloc(p, most, sizeof *p->repeated);
+  p->repeated = hr2dpi_alloc(p, max, sizeof *p->repeated);
   if (!p->repeated) return HR2D_ENOMEM;
-  for (uint64_t k = 0; k < links && most > 0; k++) {
+  for (uint64_t k = 0; k < links && max > 0; k++) {
     uint64_t count;
     const uint64_t first =
         hr2dpi_unit_of(p, element, hr2d_linkset_get(p->links, k).pair.first, &count);
-    if (count > 1 && first < p->units.links.from[p->rank] && p->repeats < most)
+    if (count > 1 && first < p->units.links.from[p->rank] && p->repeats < max)
       p->repeated[p->repeats++] = k;
   }
   return HR2D_OK;
@@ -257,7 +257,7 @@ static void list_repeated(const hr2dp *p, uint64_t list[2 * SUMS]) {
 
 /* Adds up what ranks have made: all less what several have done alike, and this once. */
 static PetscErrorCode count(hr2dp *p) {
-  uint64_t own[SUMS], alike[2 * SUMS], most[2];
+  uint64_t own[SUMS], alike[2 * SUMS], max[2];
   hr2dp_counts *c = &p->counts;
   PetscFunctionBegin;
   const hr2d_refine_counts made = hr2d_linkset_counts(p->links);
@@ -265,19 +265,19 @@ static PetscErrorCode count(hr2dp *p) {
   list_repeated(p, alike);
   c->own_links = own[0] - p->repeats;
   c->own_tests = own[4];
-  most[0] = c->own_links;
-  most[1] = c->own_tests;
+  max[0] = c->own_links;
+  max[1] = c->own_tests;
   uint64_t all[3 * SUMS + 1];
   memcpy(all, own, sizeof own);
   memcpy(all + SUMS, alike, sizeof alike);
   all[3 * SUMS] = c->own_links;
   PetscCall(hr2dpi_add_counts(p, all, 3 * SUMS + 1));
-  PetscCall(hr2dpi_max_counts(p, most, 2));
+  PetscCall(hr2dpi_max_counts(p, max, 2));
   for (int k = 0; k < SUMS; k++) all[k] += all[2 * SUMS + k] - all[SUMS + k];
   read_counts(all, &c->whole);
   c->repeated_calls = all[SUMS + 2] - all[2 * SUMS + 2];
-  c->most_links = most[0];
-  c->most_tests = most[1];
+  c->max_links = max[0];
+  c->max_tests = max[1];
   PetscCheck(all[3 * SUMS] == c->whole.links, p->comm, PETSC_ERR_PLIB,
              "ranks have %llu links together and count %llu", (unsigned long long)all[3 * SUMS],
              (unsigned long long)c->whole.links);

@@ -4,7 +4,7 @@
 
    All but the gather is done once for each element, from its children or its parent, so that no
    sum of it depends on the ranks; sums of the gather are kept in bins.  An element of length A
-   receives at most A·max|up|, as its links have at most its row; times p->most, where images
+   receives at most A·max|up|, as its links have at most its row; times p->max, where images
    stand for others. */
 #include "transport.h"
 
@@ -20,7 +20,7 @@ hr2d_status hr2dpi_transport_init(hr2dpi_transport *t, hr2dp *p) {
   if (!t->up || !t->bin || !t->scale || !t->above) return HR2D_ENOMEM;
   const hr2d_element *element = hr2d_hierarchy_elements(p->hierarchy);
   for (uint32_t e = 0; e < elements; e++)
-    t->scale[e] = hr2dpi_bin_scale(p->most * element[hr2dpi_original(p, e)].length);
+    t->scale[e] = hr2dpi_bin_scale(p->max * element[hr2dpi_original(p, e)].length);
   return HR2D_OK;
 }
 

@@ -223,14 +223,14 @@ static PetscErrorCode count(hr2dp *p) {
   c->touched_elements = t->elements;
   c->halo_elements = t->halos;
   uint64_t sum[2] = {t->owned, t->leaves};
-  uint64_t most[2] = {t->owned, hr2d_hierarchy_count(p->hierarchy).levels};
+  uint64_t max[2] = {t->owned, hr2d_hierarchy_count(p->hierarchy).levels};
   PetscCall(hr2dpi_add_counts(p, sum, 2));
-  PetscCall(hr2dpi_max_counts(p, most, 2));
+  PetscCall(hr2dpi_max_counts(p, max, 2));
   const uint64_t ends = p->roots - p->patches * p->images;
   c->whole.elements = (sum[0] + t->tops) * p->images + ends;
   c->whole.leaves = sum[1] * p->images + ends;
-  c->whole.levels = (unsigned)most[1];
-  c->most_elements = most[0];
+  c->whole.levels = (unsigned)max[1];
+  c->max_elements = max[0];
   PetscFunctionReturn(0);
 }
 

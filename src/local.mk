@@ -47,29 +47,29 @@ libhr2d_core_la_SOURCES = \
 	src/geometry/predicates.c src/geometry/predicates.h \
 	src/geometry/stars.c src/geometry/stars.h \
 	src/geometry/vector.h \
-	src/triangulation/alike.c src/triangulation/alike.h \
+	src/triangulation/merge-vertices.c src/triangulation/merge-vertices.h \
 	src/triangulation/cavity.c src/triangulation/cavity.h \
-	src/triangulation/compact.c src/triangulation/compact.h \
+	src/triangulation/freeze.c src/triangulation/freeze.h \
 	src/triangulation/constraints.c src/triangulation/constraints.h \
 	src/triangulation/delaunay.c src/triangulation/delaunay.h \
-	src/triangulation/feet.c src/triangulation/feet.h \
+	src/triangulation/snap-feet.c src/triangulation/snap-feet.h \
 	src/triangulation/hilbert.h \
 	src/triangulation/in-circle.c src/triangulation/in-circle.h \
 	src/triangulation/mesh.c src/triangulation/mesh.h \
-	src/triangulation/passes.c src/triangulation/passes.h \
+	src/triangulation/check-crossings.c src/triangulation/check-crossings.h \
 	src/triangulation/pieces.c src/triangulation/pieces.h \
 	src/triangulation/points.c src/triangulation/points.h \
 	src/triangulation/triangulation.c src/triangulation/triangulation.h \
-	src/sight/area.c \
-	src/sight/restrict.c \
-	src/sight/sight.h \
-	src/sight/sight-list.c src/sight/sight-list.h \
-	src/sight/triangular-expansion.c src/sight/triangular-expansion.h \
-	src/sight/walk.c src/sight/walk.h \
-	src/occlusion/clumps.c src/occlusion/clumps.h \
+	src/beams/area.c \
+	src/beams/restrict.c \
+	src/beams/line-class.h \
+	src/beams/line-class-list.c src/beams/line-class-list.h \
+	src/beams/triangular-expansion.c src/beams/triangular-expansion.h \
+	src/beams/walk.c src/beams/walk.h \
+	src/occlusion/occluder-hulls.c src/occlusion/occluder-hulls.h \
 	src/occlusion/exchange-occluded.c \
-	src/occlusion/past-clumps.c src/occlusion/past-clumps.h \
-	src/occlusion/screens.c src/occlusion/screens.h \
+	src/occlusion/area-past-hulls.c src/occlusion/area-past-hulls.h \
+	src/occlusion/clipped-occluders.c src/occlusion/clipped-occluders.h \
 	src/occlusion/wall-bodies.c src/occlusion/wall-bodies.h \
 	src/occlusion/wall-tree.c src/occlusion/wall-tree.h \
 	src/occlusion/walls.c src/occlusion/walls.h \
@@ -94,7 +94,7 @@ libhr2d_core_la_SOURCES = \
 	src/scene/reading-notes.c src/scene/reading-notes.h \
 	src/scene/scene.c \
 	src/scene/scene-impl.h \
-	src/scene/settled.c src/scene/settled.h \
+	src/scene/frozen-temperatures.c src/scene/frozen-temperatures.h \
 	src/scene/side-layers.c src/scene/side-layers.h \
 	src/scene/side-parts.c src/scene/side-parts.h \
 	src/scene/sky.c src/scene/sky.h \
@@ -131,21 +131,21 @@ libhr2d_core_la_SOURCES = \
 	src/visibility/exchange-rows.c \
 	src/visibility/exchange-visit.c \
 	src/visibility/image-rows.c src/visibility/image-rows.h \
-	src/visibility/looks.c src/visibility/looks.h \
-	src/visibility/patch-sights.c src/visibility/patch-sights.h \
+	src/visibility/beam-cache.c src/visibility/beam-cache.h \
+	src/visibility/pair-visibility.c src/visibility/pair-visibility.h \
 	src/visibility/point-beams.c \
 	src/visibility/point-view.c src/visibility/point-view.h \
 	src/visibility/point-view-all.c \
-	src/visibility/point-view-glimpse.c \
+	src/visibility/point-view-interval.c \
 	src/visibility/point-view-impl.h \
 	src/visibility/point-view-ray.c \
 	src/visibility/point-view-walk.c \
-	src/visibility/row-maker.c src/visibility/row-maker.h \
-	src/visibility/row-sum.c src/visibility/row-sum.h \
-	src/visibility/seen-backs.c src/visibility/seen-backs.h \
-	src/visibility/sees-anything.c src/visibility/sees-anything.h \
-	src/visibility/sharing.c src/visibility/sharing.h \
-	src/visibility/view-tail.c src/visibility/view-tail.h \
+	src/visibility/row-assembly.c src/visibility/row-assembly.h \
+	src/visibility/sparse-accumulator.c src/visibility/sparse-accumulator.h \
+	src/visibility/back-visibility.c src/visibility/back-visibility.h \
+	src/visibility/any-visible.c src/visibility/any-visible.h \
+	src/visibility/scatter.c src/visibility/scatter.h \
+	src/visibility/periodic-tail.c src/visibility/periodic-tail.h \
 	src/lint/gaps.c \
 	src/lint/heat.c \
 	src/lint/light.c \
@@ -219,8 +219,8 @@ libhr2d_core_la_SOURCES = \
 	src/field/light.c src/field/light.h \
 	src/field/locate.c src/field/locate.h \
 	src/field/past-ends.c src/field/past-ends.h \
-	src/field/round-view.c src/field/round-view.h \
-	src/field/step-off.c \
+	src/field/visibility-polygon.c src/field/visibility-polygon.h \
+	src/field/offset-viewpoint.c \
 	src/refine/count.c \
 	src/refine/occluded-pairs.c src/refine/occluded-pairs.h \
 	src/refine/part-rows.c src/refine/part-rows.h \
@@ -230,7 +230,7 @@ libhr2d_core_la_SOURCES = \
 	src/refine/refine.c \
 	src/refine/refine-how.h \
 	src/refine/rounds.c src/refine/rounds.h \
-	src/refine/row-look.c src/refine/row-look.h \
+	src/refine/trace-row.c src/refine/trace-row.h \
 	src/refine/rows.c src/refine/rows.h \
 	src/refine/study.c \
 	src/refine/unite-shares.c src/refine/unite-shares.h \
@@ -243,8 +243,8 @@ libhr2d_core_la_SOURCES = \
 	src/solve/closure-order-p.c \
 	src/solve/energy-balance.c src/solve/energy-balance.h \
 	src/solve/equation.c src/solve/equation.h \
-	src/solve/equation-enough.c \
-	src/solve/equation-part.c src/solve/equation-part.h \
+	src/solve/stopping-test.c \
+	src/solve/reduced-equation.c src/solve/reduced-equation.h \
 	src/solve/equation-power.c \
 	src/solve/equation-sign.c \
 	src/solve/existence.c src/solve/existence.h \
@@ -254,9 +254,9 @@ libhr2d_core_la_SOURCES = \
 	src/solve/gather-one-way.c src/solve/gather-one-way.h \
 	src/solve/heat-balance.c src/solve/heat-balance.h \
 	src/solve/heat-scene.c src/solve/heat-scene.h \
-	src/solve/image-ties.c src/solve/image-ties.h \
+	src/solve/image-map.c src/solve/image-map.h \
 	src/solve/leading-blocks.c src/solve/leading-blocks.h \
-	src/solve/outside.c src/solve/outside.h \
+	src/solve/external-irradiance.c src/solve/external-irradiance.h \
 	src/solve/power-cut-off.c src/solve/power-cut-off.h \
 	src/solve/row-sums.c src/solve/row-sums.h \
 	src/solve/row-tails.c src/solve/row-tails.h \
@@ -266,7 +266,7 @@ libhr2d_core_la_SOURCES = \
 	src/solve/transport.c src/solve/transport.h \
 	src/mesh/admissibility.c src/mesh/admissibility.h \
 	src/mesh/corner-exponent.c src/mesh/corner-exponent.h \
-	src/mesh/divided-links.c src/mesh/divided-links.h \
+	src/mesh/reuse-links.c src/mesh/reuse-links.h \
 	src/mesh/event-list.c src/mesh/event-list.h \
 	src/mesh/events.c src/mesh/events.h \
 	src/mesh/events-beams.c \
@@ -274,19 +274,19 @@ libhr2d_core_la_SOURCES = \
 	src/mesh/grader.h \
 	src/mesh/grader-team.c \
 	src/mesh/grading-marks.c \
-	src/mesh/halved-leaves.c src/mesh/halved-leaves.h \
-	src/mesh/kink-jumps.c src/mesh/kink-jumps.h \
-	src/mesh/kinks.c src/mesh/kinks.h \
+	src/mesh/refine-marked.c src/mesh/refine-marked.h \
+	src/mesh/derivative-jumps.c src/mesh/derivative-jumps.h \
+	src/mesh/event-selection.c src/mesh/event-selection.h \
 	src/mesh/mesh-grading.c src/mesh/mesh-grading.h \
 	src/mesh/mirror-images.c src/mesh/mirror-images.h \
 	src/mesh/point-grid.c src/mesh/point-grid.h \
-	src/mesh/row-deal.c src/mesh/row-deal.h \
-	src/mesh/seen-ends.c src/mesh/seen-ends.h \
+	src/mesh/row-partition.c src/mesh/row-partition.h \
+	src/mesh/visible-vertices.c src/mesh/visible-vertices.h \
 	src/estimate/cluster-residuals.c src/estimate/cluster-residuals.h \
 	src/estimate/coordinate-rounding.c src/estimate/coordinate-rounding.h \
 	src/estimate/corner-residuals.c src/estimate/corner-residuals.h \
 	src/estimate/error-estimate.c src/estimate/error-estimate.h \
-	src/estimate/error-shares.c src/estimate/error-shares.h \
+	src/estimate/error-indicators.c src/estimate/error-indicators.h \
 	src/estimate/estimator.c src/estimate/estimator.h \
 	src/estimate/gap-residuals.c src/estimate/gap-residuals.h \
 	src/estimate/graded-solve.c src/estimate/graded-solve.h \
@@ -296,7 +296,7 @@ libhr2d_core_la_SOURCES = \
 	src/estimate/residual-series.c src/estimate/residual-series.h \
 	src/estimate/resolution.c src/estimate/resolution.h \
 	src/estimate/rounding-bound.c src/estimate/rounding-bound.h \
-	src/estimate/safe-sum.c src/estimate/safe-sum.h \
+	src/estimate/unsigned-error.c src/estimate/unsigned-error.h \
 	src/estimate/shadow-residuals.c src/estimate/shadow-residuals.h \
 	src/estimate/shared-sums.c src/estimate/shared-sums.h \
 	src/enclosure/enclosure.c \
@@ -310,7 +310,7 @@ libhr2d_core_la_SOURCES = \
 	src/accuracy/heat-solve.c src/accuracy/heat-solve.h \
 	src/accuracy/predict.c \
 	src/accuracy/search.c src/accuracy/search.h \
-	src/accuracy/sketch.c src/accuracy/sketch.h \
+	src/accuracy/fallback-solve.c src/accuracy/fallback-solve.h \
 	src/accuracy/solution-distance.c src/accuracy/solution-distance.h \
 	src/accuracy/solution-error.c \
 	src/accuracy/solve-to.c src/accuracy/solve-to.h \

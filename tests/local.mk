@@ -24,8 +24,8 @@ SUITES = \
 	tests/unit/geometry/check-hull \
 	tests/unit/geometry/check-stars \
 	tests/unit/triangulation/check-triangulation \
-	tests/unit/sight/check-sight \
-	tests/unit/sight/check-walk \
+	tests/unit/beams/check-line-class \
+	tests/unit/beams/check-walk \
 	tests/bounds/check-bounds-geometry \
 	tests/bounds/check-bounds-oracles \
 	tests/bounds/check-bounds-l1 \
@@ -100,10 +100,10 @@ SUITES = \
 	tests/unit/visibility/check-exchange-rows \
 	tests/unit/visibility/check-period-rows \
 	tests/unit/visibility/check-image-memory \
-	tests/unit/visibility/check-patch-sights \
-	tests/unit/visibility/check-seen-backs \
-	tests/unit/visibility/check-looks \
-	tests/unit/mesh/check-seen-ends \
+	tests/unit/visibility/check-pair-visibility \
+	tests/unit/visibility/check-back-visibility \
+	tests/unit/visibility/check-beam-cache \
+	tests/unit/mesh/check-visible-vertices \
 	tests/unit/blocks/check-blocks \
 	tests/unit/blocks/check-directions \
 	tests/unit/blocks/check-moments \
@@ -114,13 +114,13 @@ SUITES = \
 	tests/unit/accuracy/check-random-periods \
 	tests/unit/accuracy/check-target-calls \
 	tests/unit/estimate/check-cluster-residuals \
-	tests/unit/estimate/check-error-shares \
+	tests/unit/estimate/check-error-indicators \
 	tests/unit/estimate/check-single-blocks \
 	tests/unit/accuracy/check-importance \
 	tests/unit/accuracy/check-found-errors \
 	tests/unit/enclosure/check-enclosure \
 	tests/unit/enclosure/check-enclosure-factors \
-	tests/unit/mesh/check-kinks \
+	tests/unit/mesh/check-event-selection \
 	tests/unit/accuracy/check-measured-errors \
 	tests/unit/accuracy/check-budgets \
 	tests/unit/accuracy/check-cracks \
@@ -330,7 +330,7 @@ TOO_LONG = tests/bounds/check-bounds-geometry tests/bounds/check-bounds-l1 \
 	tests/hard/check-hard-oracles tests/hard/check-hard-refine tests/hard/check-hard-scenes \
 	tests/hard/check-hard-solve tests/paper/check-theorem tests/unit/accuracy/check-budgets \
 	tests/unit/estimate/check-cluster-residuals tests/unit/accuracy/check-cracks \
-	tests/unit/accuracy/check-dark tests/unit/estimate/check-error-shares \
+	tests/unit/accuracy/check-dark tests/unit/estimate/check-error-indicators \
 	tests/unit/accuracy/check-importance tests/unit/accuracy/check-known-radiosities \
 	tests/unit/accuracy/check-random-accuracy tests/unit/accuracy/check-random-periods \
 	tests/unit/estimate/check-roundings tests/unit/accuracy/check-shadow-edges \

@@ -22,7 +22,7 @@ tests/threads/check-threads tests/unit/refine/check-refine \
 tests/unit/refine/check-rows tests/unit/solve/check-slices \
 tests/unit/solve/check-order tests/unit/solve/check-solve \
 tests/unit/visibility/check-exchange-matrix tests/unit/visibility/check-exchange-rows \
-tests/unit/visibility/check-seen-backs tests/unit/blocks/check-blocks"
+tests/unit/visibility/check-back-visibility tests/unit/blocks/check-blocks"
 
 # build SETTING CONFIGURE-ARGUMENT...
 build() {

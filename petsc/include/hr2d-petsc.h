@@ -93,9 +93,9 @@ typedef struct hr2dp_counts {
   uint64_t
       repeated_calls;        /**< oracle calls that two ranks or more made for one pair; not in
                                   `whole`. Some hundred at most, and none where patches are many */
-  uint64_t most_links;       /**< links of the rank that has most */
-  uint64_t most_tests;       /**< the same of visibility tests */
-  uint64_t most_elements;    /**< the same of elements whose radiosity it keeps */
+  uint64_t max_links;        /**< links of the rank that has most */
+  uint64_t max_tests;        /**< the same of visibility tests */
+  uint64_t max_elements;     /**< the same of elements whose radiosity it keeps */
   uint64_t own_links;        /**< links of this rank */
   uint64_t own_tests;        /**< visibility tests of this rank */
   uint64_t own_elements;     /**< elements whose radiosity this rank keeps */

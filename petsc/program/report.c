@@ -50,7 +50,7 @@ static void print(const result *r) {
          (unsigned long long)n->elements, (unsigned long long)n->leaves, n->levels);
   printf("links     L = %llu\n", (unsigned long long)n->links);
   printf("ranks     %d, with at most %llu links, %llu elements and %.0f MB\n", r->j->ranks,
-         (unsigned long long)r->n.most_links, (unsigned long long)r->n.most_elements,
+         (unsigned long long)r->n.max_links, (unsigned long long)r->n.max_elements,
          (double)r->peak_bytes / 1e6);
   printf("work      %llu sweeps, %llu iterations, residual %.1e\n",
          (unsigned long long)r->j->report.sweeps, (unsigned long long)r->j->report.iterations,
@@ -92,9 +92,9 @@ static json_t *json_work(const result *r) {
 static json_t *json_ranks(const result *r) {
   json_t *object = json_object();
   json_put(&object, "count", json_count((uint64_t)r->j->ranks));
-  json_put(&object, "most_links", json_count(r->n.most_links));
-  json_put(&object, "most_visibility_tests", json_count(r->n.most_tests));
-  json_put(&object, "most_elements", json_count(r->n.most_elements));
+  json_put(&object, "most_links", json_count(r->n.max_links));
+  json_put(&object, "most_visibility_tests", json_count(r->n.max_tests));
+  json_put(&object, "most_elements", json_count(r->n.max_elements));
   json_put(&object, "most_halo_elements", json_count(r->halo));
   json_put(&object, "most_bytes", json_count(r->peak_bytes));
   return object;
@@ -149,13 +149,13 @@ static int write_json(const result *r, const char *path) {
 }
 
 /* The largest peak and the largest halo of a rank. */
-static void find_most(result *r) {
+static void find_max(result *r) {
   struct rusage usage;
-  uint64_t most[] = {getrusage(RUSAGE_SELF, &usage) ? 0 : (uint64_t)usage.ru_maxrss * 1024,
-                     r->n.halo_elements};
-  MPI_Allreduce(MPI_IN_PLACE, most, 2, MPI_UINT64_T, MPI_MAX, PETSC_COMM_WORLD);
-  r->peak_bytes = most[0];
-  r->halo = most[1];
+  uint64_t max[] = {getrusage(RUSAGE_SELF, &usage) ? 0 : (uint64_t)usage.ru_maxrss * 1024,
+                    r->n.halo_elements};
+  MPI_Allreduce(MPI_IN_PLACE, max, 2, MPI_UINT64_T, MPI_MAX, PETSC_COMM_WORLD);
+  r->peak_bytes = max[0];
+  r->halo = max[1];
 }
 
 static int tell(const result *r) {
@@ -178,7 +178,7 @@ int job_report(job *j) {
     PetscErrorCode code = hr2dp_averages(j->p, j->b, r.average);
     if (!code) code = hr2dp_averages(j->p, j->h, r.irradiance);
     if (!code) code = hr2dp_get_counts(j->p, &r.n);
-    find_most(&r);
+    find_max(&r);
     r.total = clock_seconds() - j->start;
     if (code)
       status = job_complain(j, code);

@@ -45,7 +45,7 @@ typedef struct growth {
 
 typedef struct heat_search {
   const hr2d_scene *scene;
-  hr2d_scene *settled;
+  hr2d_scene *frozen;
   hr2d_target given; /* complete */
   hr2d_target how;   /* for solves: the patches of given flux are important, too */
   size_t *important;
@@ -107,7 +107,7 @@ static hr2d_status solve(heat_search *s, double part_of_time) {
   if (s->given.seconds > 0)
     s->how.seconds =
         fmax(1e-3, part_of_time * (s->start + s->given.seconds - hr2di_clock_now()));
-  const hr2d_status status = hr2di_solve_to(s->settled, &s->how, &s->solution, &s->account);
+  const hr2d_status status = hr2di_solve_to(s->frozen, &s->how, &s->solution, &s->account);
   add_work(&s->account, &before);
   if (s->solution && s->solution->own_links->counts.elements == 0) {
     hr2d_solution_destroy(s->solution);
@@ -129,10 +129,10 @@ static void set_unit_errors(heat_search *s, hr2di_heat_balance *h) {
   const size_t bands = s->scene->bands;
   for (size_t k = 0; k < h->count; k++) h->old[k] = 0;
   for (size_t b = 0; b < bands; b++) {
-    const double least = s->given.floor * largest(h->average, s->scene->patches, bands, b);
+    const double min = s->given.floor * largest(h->average, s->scene->patches, bands, b);
     for (size_t k = 0; k < h->count; k++)
-      h->old[k] += (1 - hr2d_scene_reflectance(s->settled, h->patch[k], b)) *
-                   fmax(h->average[h->patch[k] * bands + b], least);
+      h->old[k] += (1 - hr2d_scene_reflectance(s->frozen, h->patch[k], b)) *
+                   fmax(h->average[h->patch[k] * bands + b], min);
   }
   s->left = 0;
   for (size_t k = 0; k < h->count; k++)
@@ -146,10 +146,10 @@ static double worst_of(const heat_search *s, const double *off, const double *av
   const size_t bands = s->scene->bands;
   double worst = 0;
   for (size_t b = 0; b < bands; b++) {
-    const double least = s->given.floor * largest(average, s->scene->patches, bands, b);
+    const double min = s->given.floor * largest(average, s->scene->patches, bands, b);
     for (size_t k = 0; k < s->scene->patches; k++)
       if (hr2di_is_important(&s->given, k) && off[k * bands + b] > 0)
-        worst = fmax(worst, off[k * bands + b] / fmax(average[k * bands + b], least));
+        worst = fmax(worst, off[k * bands + b] / fmax(average[k * bands + b], min));
   }
   return worst;
 }
@@ -162,7 +162,7 @@ static double worst_point(const heat_search *s, const hr2di_heat_balance *h,
     double off = 0;
     for (size_t k = 0; k < h->count; k++)
       off = fmax(off, fabs(h->rise[k * bands + b]) * h->step[k] /
-                          (1 - hr2d_scene_reflectance(s->settled, h->patch[k], b)));
+                          (1 - hr2d_scene_reflectance(s->frozen, h->patch[k], b)));
     if (off > 0) worst = fmax(worst, off / largest(radiosity, s->scene->patches, bands, b));
   }
   return worst;
@@ -179,8 +179,8 @@ static hr2d_status measure_growth(heat_search *s, hr2di_heat_balance *h) {
   memcpy(irradiance, h->average, values * sizeof *irradiance);
   for (size_t k = 0; k < values; k++) {
     const size_t patch = k / s->scene->bands, band = k % s->scene->bands;
-    b[k] = hr2d_scene_emission(s->settled, patch, band) +
-           hr2d_scene_reflectance(s->settled, patch, band) * irradiance[k];
+    b[k] = hr2d_scene_emission(s->frozen, patch, band) +
+           hr2d_scene_reflectance(s->frozen, patch, band) * irradiance[k];
   }
   hr2d_status status = hr2di_heat_balance_spread(h, h->old, h->step);
   for (size_t k = 0; k < h->count; k++) h->step[k] = fmax(h->step[k], 0);
@@ -194,7 +194,7 @@ static hr2d_status measure_growth(heat_search *s, hr2di_heat_balance *h) {
 static void keep_emission(const heat_search *s, const hr2di_heat_balance *h, double *emission) {
   const size_t bands = s->scene->bands;
   for (size_t m = 0; m < h->count * bands; m++)
-    emission[m] = hr2d_scene_emission(s->settled, h->patch[m / bands], m % bands);
+    emission[m] = hr2d_scene_emission(s->frozen, h->patch[m / bands], m % bands);
 }
 
 static void measure_move(heat_search *s, const hr2di_heat_balance *h, const double *before) {
@@ -203,9 +203,9 @@ static void measure_move(heat_search *s, const hr2di_heat_balance *h, const doub
   for (size_t b = 0; b < bands; b++) {
     double max = 0;
     for (size_t k = 0; k < s->scene->patches; k++)
-      max = fmax(max, hr2d_scene_emission(s->settled, k, b));
+      max = fmax(max, hr2d_scene_emission(s->frozen, k, b));
     for (size_t k = 0; k < h->count; k++) {
-      const double is = hr2d_scene_emission(s->settled, h->patch[k], b);
+      const double is = hr2d_scene_emission(s->frozen, h->patch[k], b);
       const double change = fabs(is - before[k * bands + b]);
       if (change > 0) s->moved = fmax(s->moved, change / fmax(is, s->given.floor * max));
     }
@@ -216,7 +216,7 @@ static void measure_move(heat_search *s, const hr2di_heat_balance *h, const doub
 static void put_errors(heat_search *s, const hr2di_heat_balance *h) {
   const hr2d_error e = s->account.irradiance;
   for (size_t k = 0; k < h->count; k++) {
-    hr2di_found *found = &s->settled->found[h->patch[k]];
+    hr2di_found *found = &s->frozen->found[h->patch[k]];
     found->estimate = e.estimate * h->step[k];
     found->bound = (e.bound + s->left) * h->step[k];
   }
@@ -228,7 +228,7 @@ static hr2d_status settle_own(heat_search *s) {
   const double start = hr2di_clock_now();
   hr2d_linkset *links = s->solution->own_links;
   const hr2d_solve_options options = options_of(&s->how);
-  hr2d_status status = hr2di_heat_balance_init(&h, s->settled, links, &options);
+  hr2d_status status = hr2di_heat_balance_init(&h, s->frozen, links, &options);
   double *before = hr2di_alloc(&s->scene->alloc, h.count * s->scene->bands + 1, sizeof *before);
   if (!status && !before) status = HR2D_ENOMEM;
   if (!status) {
@@ -255,7 +255,7 @@ static hr2d_status settle(heat_search *s) {
   return own ? status : status ? fail(s, status, NULL) : HR2D_OK;
 }
 
-/* The solution with the settled temperatures, on the same links. */
+/* The solution with the frozen temperatures, on the same links. */
 static hr2d_status renew(heat_search *s) {
   const hr2d_solve_options options = options_of(&s->how);
   hr2d_solution *made = NULL, *old = s->solution;
@@ -263,7 +263,7 @@ static hr2d_status renew(heat_search *s) {
   if (status) return fail(s, status, hr2d_linkset_message(old->own_links));
   made->own_links = old->own_links;
   made->own_hierarchy = old->own_hierarchy;
-  made->own_scene = s->settled;
+  made->own_scene = s->frozen;
   old->own_links = NULL;
   old->own_hierarchy = NULL;
   hr2d_solution_destroy(old);
@@ -311,14 +311,14 @@ static hr2d_status approach(heat_search *s) {
 }
 
 static hr2d_status reach(heat_search *s) {
-  hr2d_status status = approach(s), settled = status;
-  for (int k = 0; k < FINE_SOLVES && !settled; k++) {
+  hr2d_status status = approach(s), frozen = status;
+  for (int k = 0; k < FINE_SOLVES && !frozen; k++) {
     status = solve(s, 0.6);
-    settled = is_usable(s, status) ? settle(s) : status;
-    if (!settled && s->moved <= MOVED) break;
+    frozen = is_usable(s, status) ? settle(s) : status;
+    if (!frozen && s->moved <= MOVED) break;
   }
-  if (!settled) settled = renew(s);
-  if (settled) return settled;
+  if (!frozen) frozen = renew(s);
+  if (frozen) return frozen;
   if (!s->given.no_error) raise_errors(s);
   return status;
 }
@@ -332,7 +332,7 @@ hr2d_status hr2di_heat_solve(const hr2d_scene *scene, const hr2d_target *target,
   if (!status) status = set_important(&s);
   if (!status)
     status =
-        hr2di_heat_scene_create(scene, NULL, s.how.progress, s.how.progress_ctx, &s.settled);
+        hr2di_heat_scene_create(scene, NULL, s.how.progress, s.how.progress_ctx, &s.frozen);
   status = hr2di_share_agree(s.given.share, status);
   if (!status)
     status = reach(&s);
@@ -346,7 +346,7 @@ hr2d_status hr2di_heat_solve(const hr2d_scene *scene, const hr2d_target *target,
   if (s.solution)
     *solution = s.solution;
   else
-    hr2di_settled_destroy(s.settled);
+    hr2di_frozen_destroy(s.frozen);
   if (account) *account = s.account;
   hr2di_alloc_free(&scene->alloc, s.important);
   hr2di_target_clear(&s.given, scene);

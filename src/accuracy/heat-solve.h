@@ -5,7 +5,8 @@
 
 #include <hr2d/accuracy.h>
 
-/* hr2d_solve_to() of an unsettled scene, see settled.h.  The solution owns a settled one. */
+/* hr2d_solve_to() of an unsettled scene, see frozen-temperatures.h.  The solution owns one of
+ * frozen temperatures. */
 hr2d_status hr2di_heat_solve(const hr2d_scene *scene, const hr2d_target *target,
                              hr2d_solution **solution, hr2d_account *account);
 

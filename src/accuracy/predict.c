@@ -16,7 +16,7 @@
 #include "estimate/error-estimate.h"
 #include "estimate/estimator.h"
 #include "estimate/importance.h"
-#include "scene/settled.h"
+#include "scene/frozen-temperatures.h"
 #include "solution/solution-impl.h"
 #include "solve/gather-blocks.h"
 #include "solve/heat-scene.h"
@@ -134,8 +134,8 @@ static hr2d_status try_coarse(const hr2d_scene *scene, const hr2d_target *target
       .order = 2,
       .target = 0.1,
       .norm = target->norm,
-      .flat = fineness->flat,
-      .distance = fineness->flat ? fineness->distance : 0,
+      .no_corner_grading = fineness->no_corner_grading,
+      .distance = fineness->no_corner_grading ? fineness->distance : 0,
       .tolerance = hr2di_strategy_tolerance(scene, target->floor, target->error)};
   hr2d_status status = hr2di_graded_refine(&a, scene, &coarse, target, &message);
   if (!status) status = hr2di_graded_solve(&a, &coarse, target, &message);
@@ -170,7 +170,7 @@ static hr2d_status predict(const hr2d_scene *scene, const hr2d_target *target,
   hr2di_scene_watch(scene, &watch, target->progress, target->progress_ctx, "refine");
   hr2d_status status = HR2D_OK;
   hr2di_message message;
-  hr2di_lights lights = {0};
+  hr2di_primal_dual lights = {0};
   if (hr2di_strategy_wants_lights(scene, target))
     status = hr2di_importance(scene, target, NULL, &lights, &survey, &message);
   if (!status && !(survey.ellipse > 0))
@@ -190,32 +190,32 @@ static hr2d_status predict(const hr2d_scene *scene, const hr2d_target *target,
     const double gathers = coarse.iterations * c.gather +
                            HR2DI_CHOICE_PREDICT_GATHERS * c.finer +
                            HR2DI_CHOICE_PREDICT_ITERATIONS * coarse.iterations * c.part;
-    const double calls = !reflects          ? HR2DI_CHOICE_PREDICT_DARK
-                         : fineness.flat    ? HR2DI_CHOICE_PREDICT_FLAT
-                         : lights.radiosity ? HR2DI_CHOICE_PREDICT_LIT
-                                            : HR2DI_CHOICE_PREDICT_CALLS;
+    const double calls = !reflects                    ? HR2DI_CHOICE_PREDICT_DARK
+                         : fineness.no_corner_grading ? HR2DI_CHOICE_PREDICT_FLAT
+                         : lights.radiosity           ? HR2DI_CHOICE_PREDICT_LIT
+                                                      : HR2DI_CHOICE_PREDICT_CALLS;
     p->seconds = calls * coarse.seconds + c.make +
                  (reflects ? HR2DI_CHOICE_PREDICT_REST * gathers : 0) +
                  (reflects && !target->no_error ? points : 0);
     set_range(p);
   }
   hr2di_graded_clear(&a);
-  hr2di_lights_clear(&lights, scene);
+  hr2di_primal_dual_clear(&lights, scene);
   return status;
 }
 
 /* Of a scene whose temperatures are not known: a solve with a guess of them, and one more. */
 static hr2d_status predict_heat(const hr2d_scene *scene, const hr2d_target *target,
                                 hr2d_prediction *prediction) {
-  hr2d_scene *settled;
+  hr2d_scene *frozen;
   hr2d_target used;
   hr2d_status status = hr2di_target_init(&used, scene, target, HR2D_DEFAULT_ERROR);
   if (status) return status;
-  status = hr2di_heat_scene_create(scene, NULL, used.progress, used.progress_ctx, &settled);
+  status = hr2di_heat_scene_create(scene, NULL, used.progress, used.progress_ctx, &frozen);
   hr2di_target_clear(&used, scene);
   if (status) return status;
-  status = hr2d_predict(settled, target, prediction);
-  hr2di_settled_destroy(settled);
+  status = hr2d_predict(frozen, target, prediction);
+  hr2di_frozen_destroy(frozen);
   prediction->seconds *= HR2DI_CHOICE_PREDICT_HEAT;
   prediction->least_seconds *= HR2DI_CHOICE_PREDICT_HEAT;
   prediction->most_seconds *= HR2DI_CHOICE_PREDICT_HEAT;

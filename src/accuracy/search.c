@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#include "accuracy/sketch.h"
+#include "accuracy/fallback-solve.h"
 #include "accuracy/target.h"
 #include "base/alloc.h"
 #include "base/choices.h"
@@ -16,15 +16,15 @@
 /* Of several shares only the first one looks at its clock. */
 double hr2di_search_left(const hr2di_search *s) {
   const hr2d_share *share = s->target.share;
-  const int looks = s->deadline > 0 && (!share || share->number == 0);
-  return looks ? s->deadline - hr2di_clock_now() : HUGE_VAL;
+  const int beam_cache = s->deadline > 0 && (!share || share->number == 0);
+  return beam_cache ? s->deadline - hr2di_clock_now() : HUGE_VAL;
 }
 
 /* Ends a call when the time is up. */
 static hr2d_status watch(void *ctx, const hr2d_progress *progress) {
   hr2di_search *s = ctx;
-  s->late = hr2di_search_left(s) <= 0;
-  if (s->late) return HR2D_STOPPED;
+  s->out_of_time = hr2di_search_left(s) <= 0;
+  if (s->out_of_time) return HR2D_STOPPED;
   if (s->given.progress)
     s->progress_status = s->given.progress(s->given.progress_ctx, progress);
   return s->progress_status;
@@ -34,11 +34,11 @@ static hr2d_status watch(void *ctx, const hr2d_progress *progress) {
 static hr2d_status make_looks(hr2di_search *s) {
   if (!s->scene->effect[HR2D_EFFECT_OCCLUSION].on || s->given.max_bytes || s->given.share)
     return HR2D_OK;
-  return hr2di_looks_init(&s->looks, s->scene, HR2DI_CHOICE_SEEN_BYTES);
+  return hr2di_beam_cache_init(&s->beam_cache, s->scene, HR2DI_CHOICE_SEEN_BYTES);
 }
 
-hr2di_looks *hr2di_search_looks(hr2di_search *s) {
-  return s->looks.of ? &s->looks : NULL;
+hr2di_beam_cache *hr2di_search_looks(hr2di_search *s) {
+  return s->beam_cache.of ? &s->beam_cache : NULL;
 }
 
 hr2d_status hr2di_search_init(hr2di_search *s, const hr2d_scene *scene,
@@ -57,8 +57,8 @@ hr2d_status hr2di_search_init(hr2di_search *s, const hr2d_scene *scene,
 
 void hr2di_search_clear(hr2di_search *s) {
   hr2di_graded_clear(&s->best);
-  hr2di_looks_clear(&s->looks);
-  hr2di_lights_clear(&s->lights, s->scene);
+  hr2di_beam_cache_clear(&s->beam_cache);
+  hr2di_primal_dual_clear(&s->lights, s->scene);
   hr2di_target_clear(&s->given, s->scene);
 }
 
@@ -66,10 +66,10 @@ hr2d_status hr2di_search_agree(hr2di_search *s, hr2d_status status) {
   hr2d_share *share = s->target.share;
   if (!share) return status;
   status = hr2di_share_agree(share, status);
-  double said[] = {s->late, s->progress_status, -s->progress_status};
+  double said[] = {s->out_of_time, s->progress_status, -s->progress_status};
   hr2di_share_begin(share);
   const hr2d_status failed = hr2di_share_combine(share, HR2D_OK, HR2D_COMBINE_MOST, said, 3);
-  s->late = said[0] > 0;
+  s->out_of_time = said[0] > 0;
   s->progress_status = (hr2d_status)(said[1] > 0 ? said[1] : -said[2]);
   return failed ? failed : status;
 }
@@ -132,27 +132,27 @@ static const hr2di_error_pair unknown = {.average = {HUGE_VAL, HUGE_VAL},
                                          .irradiance = {HUGE_VAL, HUGE_VAL},
                                          .irradiance_sup = {HUGE_VAL, HUGE_VAL}};
 
-hr2d_status hr2di_search_sketch(hr2di_search *s) {
+hr2d_status hr2di_search_fallback(hr2di_search *s) {
   hr2di_graded answer;
-  int late;
+  int out_of_time;
   const double all = s->deadline > 0 ? s->given.seconds : HUGE_VAL;
   const size_t patches = s->scene->patches;
   if (s->given.max_elements && s->given.max_elements < patches) return HR2D_OK;
   /* An element has B, H, the light from outside and that of a sweep. */
-  const double least =
+  const double min =
       (double)patches * (HR2DI_ELEMENT_BYTES + 4.0 * (double)s->scene->bands * sizeof(double));
-  if (s->given.max_bytes && (double)s->given.max_bytes < least) return HR2D_OK;
-  hr2d_status status =
-      hr2di_sketch(&answer, s->scene, &s->given,
-                   (hr2di_sketch_times){s->start + HR2DI_CHOICE_SKETCH_FACTORS * all,
-                                        s->start + HR2DI_CHOICE_SKETCH * all},
-                   &late);
+  if (s->given.max_bytes && (double)s->given.max_bytes < min) return HR2D_OK;
+  hr2d_status status = hr2di_fallback_solve(
+      &answer, s->scene, &s->given,
+      (hr2di_fallback_solve_times){s->start + HR2DI_CHOICE_SKETCH_FACTORS * all,
+                                   s->start + HR2DI_CHOICE_SKETCH * all},
+      &out_of_time);
   add_times(&s->account, &answer);
   if (!status) keep(s, &answer, &unknown);
   if (status && status != HR2D_ENOMEM) s->progress_status = status;
   hr2di_graded_clear(&answer);
-  s->late = !status && late;
-  return hr2di_search_agree(s, s->late ? HR2D_STOPPED : status);
+  s->out_of_time = !status && out_of_time;
+  return hr2di_search_agree(s, s->out_of_time ? HR2D_STOPPED : status);
 }
 
 /* What the best solve so far holds is not there for another. */
@@ -172,7 +172,7 @@ hr2d_status hr2di_search_bound(hr2di_search *s) {
   hr2di_error_pair errors;
   if (!s->best.unbounded) return HR2D_OK;
   const double start = hr2di_clock_now();
-  fineness.hasty = fineness.shares = 0;
+  fineness.skip_bound = fineness.a_posteriori = 0;
   const hr2d_status status = hr2di_search_agree(
       s, hr2di_error_estimate(&s->best, &fineness, &s->target, &errors, &s->message));
   s->account.error_seconds += hr2di_clock_now() - start;
@@ -184,8 +184,8 @@ hr2d_status hr2di_search_bound(hr2di_search *s) {
    be no time for another. */
 static int is_better(const hr2di_search *s, double error, int divided) {
   const double before = hr2di_search_error(s);
-  const double most = divided && !(s->deadline > 0) ? HR2DI_CHOICE_VARIES * before : before;
-  return !s->best.solution || !isfinite(before) || error < most;
+  const double max = divided && !(s->deadline > 0) ? HR2DI_CHOICE_VARIES * before : before;
+  return !s->best.solution || !isfinite(before) || error < max;
 }
 
 hr2d_status hr2di_search_attempt(hr2di_search *s, const hr2di_resolution *fineness,
@@ -212,7 +212,7 @@ hr2d_status hr2di_search_attempt(hr2di_search *s, const hr2di_resolution *finene
       keep(s, &answer, &errors);
       s->fineness = *fineness;
     }
-  } else if (s->late && answer.solution && !isfinite(hr2di_search_error(s))) {
+  } else if (s->out_of_time && answer.solution && !isfinite(hr2di_search_error(s))) {
     keep(s, &answer, &unknown);
   }
   hr2di_graded_clear(&answer);

@@ -13,17 +13,17 @@ typedef struct hr2di_search {
   hr2d_target target;          /* the caller's, whose progress callback looks at the clock */
   hr2d_target given;           /* the caller's; its error is 0 for the smallest */
   double start, deadline;      /* deadline 0: none */
-  int late;                    /* a call was ended because the time was up */
+  int out_of_time;             /* a call was ended because the time was up */
   hr2d_status progress_status; /* of the caller's progress callback */
   hr2di_survey survey;
   hr2di_graded best;
-  hr2di_resolution fineness; /* of the best */
-  hr2di_lights lights;       /* of patches, where there are events */
-  hr2di_looks looks;         /* of patches, if they are kept */
-  hr2d_account account;      /* of the best, with all times */
-  hr2d_error error;          /* of the best, the larger one of B and H */
-  double cut_off;            /* what of it images may make that are cut off */
-  double rounding;           /* the part of its bound that is rounding */
+  hr2di_resolution fineness;   /* of the best */
+  hr2di_primal_dual lights;    /* of patches, where there are events */
+  hr2di_beam_cache beam_cache; /* of patches, if they are kept */
+  hr2d_account account;        /* of the best, with all times */
+  hr2d_error error;            /* of the best, the larger one of B and H */
+  double cut_off;              /* what of it images may make that are cut off */
+  double rounding;             /* the part of its bound that is rounding */
   hr2di_message message;
 } hr2di_search;
 
@@ -34,7 +34,7 @@ hr2d_status hr2di_search_init(hr2di_search *s, const hr2d_scene *scene,
 void hr2di_search_clear(hr2di_search *s);
 
 /* Where looks of patches are kept; NULL if they are not. */
-hr2di_looks *hr2di_search_looks(hr2di_search *s);
+hr2di_beam_cache *hr2di_search_looks(hr2di_search *s);
 
 /* Seconds that are left; HUGE_VAL without a deadline. */
 double hr2di_search_left(const hr2di_search *s);
@@ -56,7 +56,7 @@ int hr2di_search_is_cut_off(const hr2di_search *s, double error);
 
 /* One constant per patch, of unknown error, to have an answer whatever happens.  If the time
    does not suffice for all factors of whole patches, nothing better is tried. */
-hr2d_status hr2di_search_sketch(hr2di_search *s);
+hr2d_status hr2di_search_fallback(hr2di_search *s);
 
 /* Solves once, estimates the error, and keeps the graded solve if it is the best so far.  With
    `dividing` the elements are those of the best, divided, and it is also kept if its error is a

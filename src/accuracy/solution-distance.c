@@ -151,9 +151,9 @@ static hr2d_status measure(search *s, size_t band, double *value, hr2d_error *di
     error = fmax(error, fabs(s->reading->at(s->solution, w->patch, w->at, band) - right));
   }
   if (status || s->count == 0) return status;
-  const double most = fmax(error, missed * s->worst[0].distance + off);
+  const double upper = fmax(error, missed * s->worst[0].distance + off);
   if (error > 0) distance->estimate = fmax(distance->estimate, error / s->largest);
-  if (most > 0) distance->bound = fmax(distance->bound, most / s->largest);
+  if (upper > 0) distance->bound = fmax(distance->bound, upper / s->largest);
   return HR2D_OK;
 }
 

@@ -7,7 +7,7 @@
 #include "accuracy/target.h"
 #include "base/clock.h"
 #include "links/linkset-impl.h"
-#include "scene/settled.h"
+#include "scene/frozen-temperatures.h"
 #include "solution/solution-impl.h"
 
 /* A reference is good enough if its bound is at most this part of the distance. */

@@ -2,7 +2,7 @@
 /* hr2d_solve_to(): where temperatures couple the bands, they are found first. */
 #include "accuracy/heat-solve.h"
 #include "accuracy/solve-to.h"
-#include "scene/settled.h"
+#include "scene/frozen-temperatures.h"
 
 hr2d_status hr2d_solve_to(const hr2d_scene *scene, const hr2d_target *target,
                           hr2d_solution **solution, hr2d_account *account) {

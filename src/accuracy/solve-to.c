@@ -14,7 +14,7 @@
 #include "base/clock.h"
 #include "estimate/importance.h"
 #include "links/linkset-impl.h"
-#include "mesh/row-deal.h"
+#include "mesh/row-partition.h"
 #include "scene/scene-impl.h"
 #include "solution/solution-impl.h"
 
@@ -27,8 +27,8 @@ static hr2di_resolution first_resolution(hr2di_search *s, double error) {
   hr2di_resolution guess = hr2di_strategy_for(s->scene, &s->survey, error, &s->given,
                                               s->lights.radiosity ? &s->lights : NULL);
   hr2di_resolution finer = s->fineness;
-  guess.looks = hr2di_search_looks(s);
-  guess.hasty = !(s->given.seconds > 0); /* there is time for a bound at the end */
+  guess.beam_cache = hr2di_search_looks(s);
+  guess.skip_bound = !(s->given.seconds > 0); /* there is time for a bound at the end */
   /* Under a background of their own temperature scenes are isothermal to all digits. */
   if (!guess.lights && !s->given.no_error && !s->scene->effect[HR2D_EFFECT_BACKGROUND].on) {
     guess.tolerance = hr2di_strategy_tolerance(s->scene, s->given.floor, error);
@@ -118,12 +118,12 @@ static hr2d_status reach_step_by_step(hr2di_search *s) {
     const double aim = fmax(error, s->given.error), start = hr2di_clock_now();
     status = reach(s, aim);
     if (status || hr2di_search_reached(s, s->given.error) || aim <= s->given.error) break;
-    s->late = 1.2 * (hr2di_clock_now() - start) >
-              hr2di_search_left(s); /* a finer one takes longer still */
+    s->out_of_time = 1.2 * (hr2di_clock_now() - start) >
+                     hr2di_search_left(s); /* a finer one takes longer still */
     status = hr2di_search_agree(s, HR2D_OK);
-    if (s->late) break;
+    if (s->out_of_time) break;
   }
-  return !status && s->late ? HR2D_STOPPED : status;
+  return !status && s->out_of_time ? HR2D_STOPPED : status;
 }
 
 /* The status of the whole search, with a reason if the target was not reached.  A spent budget
@@ -136,8 +136,8 @@ static hr2d_status settle(hr2di_search *s, hr2d_status status) {
     give_reason(s, "stopped by the callback");
     return s->progress_status;
   }
-  const int is_spent = is_budget(status) || (status == HR2D_STOPPED && s->late);
-  if (status == HR2D_STOPPED && s->late)
+  const int is_spent = is_budget(status) || (status == HR2D_STOPPED && s->out_of_time);
+  if (status == HR2D_STOPPED && s->out_of_time)
     give_reason(s, is_known ? "the time is used up"
                             : "the time does not suffice for a solution of known error");
   else if (status && status != HR2D_EACCURACY)
@@ -174,7 +174,7 @@ static void hand_over(hr2di_search *s, hr2d_solution **solution) {
   if (s->best.depth) hr2di_link_blocks_trim(&links->blocks, &links->alloc);
   (*solution)->own_hierarchy = s->best.hierarchy;
   (*solution)->own_links = s->best.links;
-  hr2di_alloc_free(&s->scene->alloc, s->best.bent);
+  hr2di_alloc_free(&s->scene->alloc, s->best.unresolved_jump);
   hr2di_alloc_free(&s->scene->alloc, s->best.depth);
   hr2di_row_pieces_clear(&s->best.pieces, &s->scene->alloc);
   s->best = (hr2di_graded){0};
@@ -183,15 +183,15 @@ static void hand_over(hr2di_search *s, hr2d_solution **solution) {
 /* The search itself: with a time step by step, else at once, or as far as a budget goes. */
 static hr2d_status find(hr2di_search *s) {
   hr2d_status status = HR2D_OK;
-  if (s->deadline > 0) status = hr2di_search_sketch(s);
+  if (s->deadline > 0) status = hr2di_search_fallback(s);
   if (!status) status = hr2di_search_agree(s, survey(s));
   if (status) return status;
   if (s->deadline > 0) return reach_step_by_step(s);
   status = reach(s, s->given.error > 0 ? s->given.error : 1e-15);
   if (is_budget(status) && !s->progress_status) status = reach_step_by_step(s);
   if (!is_budget(status) || s->best.solution) return status;
-  const hr2d_status sketched = hr2di_search_sketch(s);
-  return sketched ? sketched : status;
+  const hr2d_status fallen_back = hr2di_search_fallback(s);
+  return fallen_back ? fallen_back : status;
 }
 
 hr2d_status hr2di_solve_to(const hr2d_scene *scene, const hr2d_target *target,

@@ -10,7 +10,7 @@
 #include "base/choices.h"
 #include "geometry/bernstein-ellipse.h"
 #include "scene/scene-impl.h"
-#include "solve/outside.h"
+#include "solve/external-irradiance.h"
 
 #define EASY 0.06
 
@@ -21,10 +21,10 @@ static double digits_per_order(const hr2di_survey *survey, hr2d_norm norm) {
 
 /* What backs hide of a background is seen at points of rules, which kinks inside elements
    disturb: elements end at all events there. */
-hr2d_status hr2di_strategy_survey(const hr2d_scene *scene, hr2di_looks *looks, unsigned threads,
-                                  hr2di_watch *watch, hr2di_survey *survey) {
+hr2d_status hr2di_strategy_survey(const hr2d_scene *scene, hr2di_beam_cache *beam_cache,
+                                  unsigned threads, hr2di_watch *watch, hr2di_survey *survey) {
   const hr2di_grading grading = {
-      .target = 0.1, .order = 2, .looks = looks, .watch = watch, .threads = threads};
+      .target = 0.1, .order = 2, .beam_cache = beam_cache, .watch = watch, .threads = threads};
   hr2d_hierarchy *h = NULL;
   if (scene->patches > HR2DI_CHOICE_WEIGHED_EVENTS && scene->effect[HR2D_EFFECT_OCCLUSION].on)
     return hr2di_grading_survey(scene, &grading, survey);
@@ -61,10 +61,10 @@ static unsigned generations_for(double aim, hr2d_norm norm) {
 }
 
 int hr2di_strategy_wants_lights(const hr2d_scene *scene, const hr2d_target *target) {
-  const size_t most = target->error < HR2DI_CHOICE_MANY_EVENTS_ERROR
-                          ? HR2DI_CHOICE_WEIGHED_EVENTS_FINE
-                          : HR2DI_CHOICE_WEIGHED_EVENTS;
-  return target->norm == HR2D_NORM_AVERAGE && is_hidden(scene) && scene->patches <= most &&
+  const size_t max = target->error < HR2DI_CHOICE_MANY_EVENTS_ERROR
+                         ? HR2DI_CHOICE_WEIGHED_EVENTS_FINE
+                         : HR2DI_CHOICE_WEIGHED_EVENTS;
+  return target->norm == HR2D_NORM_AVERAGE && is_hidden(scene) && scene->patches <= max &&
          !scene->effect[HR2D_EFFECT_BACKGROUND].on && !(target->seconds > 0) &&
          !by_shares(scene, target, target->error);
 }
@@ -79,7 +79,7 @@ static double shares_for(const hr2d_scene *scene, double aim) {
 }
 
 /* The least 1 − ρ. */
-static double least_lost(const hr2d_scene *scene) {
+static double min_lost(const hr2d_scene *scene) {
   double lost = 1;
   for (size_t k = 0; k < scene->patches; k++)
     for (size_t b = 0; b < scene->bands; b++)
@@ -90,27 +90,27 @@ static double least_lost(const hr2d_scene *scene) {
 /* What is left of the residual is off by so much of the target at most, as 1/(1 − ρ) of it is
    left of B, and B of the darkest patch counts as much as that of the brightest. */
 double hr2di_strategy_tolerance(const hr2d_scene *scene, double contrast, double aim) {
-  const double left = HR2DI_CHOICE_UNSOLVED * aim * contrast * least_lost(scene);
+  const double left = HR2DI_CHOICE_UNSOLVED * aim * contrast * min_lost(scene);
   return fmin(fmax(left, HR2D_DEFAULT_TOLERANCE), HR2DI_CHOICE_UNSOLVED);
 }
 
 /* What the background sends is a difference of row sums from 1: where little of it shows, that
    is all rounding. */
 static int is_single(const hr2d_scene *scene, double target) {
-  return !hr2di_outside_wants_sky(scene) &&
-         HR2DI_SINGLE_ROUNDING <= HR2DI_CHOICE_SINGLE * target * least_lost(scene);
+  return !hr2di_external_wants_sky(scene) &&
+         HR2DI_SINGLE_ROUNDING <= HR2DI_CHOICE_SINGLE * target * min_lost(scene);
 }
 
 /* A piece of the sky may show in a gap between two vertices, from a stretch of a patch that
    points of a rule miss: elements end where the gap opens, at any target. */
 static unsigned generations_of_sky(const hr2d_scene *scene) {
-  return hr2di_outside_has_pieces(scene);
+  return hr2di_external_has_pieces(scene);
 }
 
 /* Most corners and near ends are those of patches that few others see: shares of a known error
    tell which ones matter.  For few digits they are few. */
 static void leave_to_shares(hr2di_resolution *f) {
-  f->flat = 1;
+  f->no_corner_grading = 1;
   f->distance = hr2di_ellipse_for(f->aim, f->order);
 }
 
@@ -119,7 +119,7 @@ static void leave_to_shares(hr2di_resolution *f) {
    0.999. */
 hr2di_resolution hr2di_strategy_for(const hr2d_scene *scene, const hr2di_survey *survey,
                                     double aim, const hr2d_target *target,
-                                    const hr2di_lights *lights) {
+                                    const hr2di_primal_dual *lights) {
   const hr2d_norm norm = target->norm;
   const int shared = by_shares(scene, target, aim);
   if (shared) lights = NULL;
@@ -128,16 +128,16 @@ hr2di_resolution hr2di_strategy_for(const hr2d_scene *scene, const hr2di_survey 
   const double error = aim * fmax(survey->exponent * survey->exponent, 1e-3);
   const double order = ceil(log(EASY / (many * error)) / digits_per_order(survey, norm));
   const int hidden = is_hidden(scene);
-  const double least = aim < HR2DI_CHOICE_ORDER_3_ERROR || lights ? 3 : 2;
+  const double min = aim < HR2DI_CHOICE_ORDER_3_ERROR || lights ? 3 : 2;
   hr2di_resolution f = {
       .aim = aim,
-      .order = (unsigned)fmin(fmax(order, least), HR2D_MAX_ORDER - 2),
+      .order = (unsigned)fmin(fmax(order, min), HR2D_MAX_ORDER - 2),
       .target = fmin(0.25 * error, 1),
       .cluster_accuracy = fmax(HR2DI_CHOICE_CLUSTERS * error, HR2DI_FINEST_CLUSTERS),
       .tolerance = lights ? hr2di_strategy_tolerance(scene, lights->contrast, aim) : 0,
       .norm = norm,
       .single = is_single(scene, target->error),
-      .hidden = hidden,
+      .has_events = hidden,
       .distance = HR2DI_ELLIPSE_DISTANT,
       .kinks = lights ? shares_for(scene, aim) : 0,
       .lights = lights,
@@ -149,9 +149,9 @@ hr2di_resolution hr2di_strategy_for(const hr2d_scene *scene, const hr2di_survey 
     f.generations = f.kinks > 0;
   }
   if (lights && aim <= HR2DI_CHOICE_ORDER_3_ERROR && f.generations == 0) f.generations = 1;
-  f.crowded = is_crowded(scene, hidden);
-  if (!f.crowded && f.generations == 0) f.generations = generations_of_sky(scene);
-  f.shares = shared || (f.crowded && norm == HR2D_NORM_AVERAGE);
+  f.many_patches = is_crowded(scene, hidden);
+  if (!f.many_patches && f.generations == 0) f.generations = generations_of_sky(scene);
+  f.a_posteriori = shared || (f.many_patches && norm == HR2D_NORM_AVERAGE);
   if (shared) leave_to_shares(&f);
   return f;
 }
@@ -163,8 +163,8 @@ hr2di_resolution hr2di_strategy_for(const hr2d_scene *scene, const hr2di_survey 
    very many only after another time; returns 0 then, and 1 otherwise. */
 static int raise_kinks(hr2di_resolution *f, double factor) {
   if (!(f->kinks > 0)) return 0;
-  const unsigned most = f->crowded ? 2 : 1;
-  f->kinks = f->raises > most ? 0 : f->kinks / (ldexp(2, (int)f->raises) * factor);
+  const unsigned max = f->many_patches ? 2 : 1;
+  f->kinks = f->raises > max ? 0 : f->kinks / (ldexp(2, (int)f->raises) * factor);
   return f->kinks > 0;
 }
 
@@ -177,7 +177,7 @@ int hr2di_strategy_raise(hr2di_resolution *f, const hr2di_survey *survey, double
   f->tolerance = fmax(f->tolerance / factor, HR2D_DEFAULT_TOLERANCE);
   f->relative /= factor;
   f->distance = HR2DI_ELLIPSE_DISTANT;
-  f->flat = 0;
+  f->no_corner_grading = 0;
   const double more = fmax(ceil(log(factor) / digits_per_order(survey, f->norm)), 1);
   f->cluster_accuracy = fmax(f->cluster_accuracy / factor, HR2DI_FINEST_CLUSTERS);
   f->order = (unsigned)fmin(f->order + more, HR2D_MAX_ORDER - 2);
@@ -186,7 +186,7 @@ int hr2di_strategy_raise(hr2di_resolution *f, const hr2di_survey *survey, double
     return 0;
   }
   f->corner_levels += (unsigned)fmax(ceil(log2(factor) / slope), 1);
-  if (f->hidden && f->generations < (f->norm == HR2D_NORM_SUP ? 4U : 2U)) f->generations++;
+  if (f->has_events && f->generations < (f->norm == HR2D_NORM_SUP ? 4U : 2U)) f->generations++;
   return 0;
 }
 

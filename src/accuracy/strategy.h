@@ -8,8 +8,8 @@
 /* Surveys the corners and ends of a scene, with threads as in options, and keeps what patches
    see in `looks`, unless that is NULL.  Returns HR2D_OK, HR2D_ENOMEM or the status of the
    watch. */
-hr2d_status hr2di_strategy_survey(const hr2d_scene *scene, hr2di_looks *looks, unsigned threads,
-                                  hr2di_watch *watch, hr2di_survey *survey);
+hr2d_status hr2di_strategy_survey(const hr2d_scene *scene, hr2di_beam_cache *beam_cache,
+                                  unsigned threads, hr2di_watch *watch, hr2di_survey *survey);
 
 /* Whether lights of patches help: to choose events for a target of averages. */
 int hr2di_strategy_wants_lights(const hr2d_scene *scene, const hr2d_target *target);
@@ -18,7 +18,7 @@ int hr2di_strategy_wants_lights(const hr2d_scene *scene, const hr2d_target *targ
    or NULL. */
 hr2di_resolution hr2di_strategy_for(const hr2d_scene *scene, const hr2di_survey *survey,
                                     double error, const hr2d_target *target,
-                                    const hr2di_lights *lights);
+                                    const hr2di_primal_dual *lights);
 
 /* What a solve may leave in its residual for an error of averages, the darkest of which are
    `contrast` times the brightest. */

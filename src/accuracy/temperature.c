@@ -15,7 +15,7 @@
 #include "estimate/importance.h"
 #include "hierarchy/hierarchy-impl.h"
 #include "scene/emissivity.h"
-#include "scene/settled.h"
+#include "scene/frozen-temperatures.h"
 #include "solution/solution-impl.h"
 
 typedef struct reader {

@@ -94,7 +94,7 @@ typedef struct state {
 
 /* Measures the residual r and passes it to `report`.  active[b] becomes 1 if band b still needs
    work, else 0. */
-static hr2d_status look(state *s, const double *r, double *active) {
+static hr2d_status measure(state *s, const double *r, double *active) {
   double *square = s->scalar[1], *norm = s->scalar[2];
   hr2di_krylov_dot(s->system, r, r, square);
   s->system->scale(s->system->ctx, s->y, norm);
@@ -119,7 +119,7 @@ static hr2d_status conjugate_gradients(state *s, const double *b) {
   form_residual(system, b, s->y, r);
   memcpy(p, r, system->size * system->bands * sizeof *p);
   hr2di_krylov_dot(system, r, r, rr);
-  hr2d_status status = look(s, r, active);
+  hr2d_status status = measure(s, r, active);
   for (unsigned k = 0; !status && !s->done; k++) {
     if (k == system->max_iterations) return HR2D_ENOT_CONVERGED;
     apply(system, p, q);
@@ -137,7 +137,7 @@ static hr2d_status conjugate_gradients(state *s, const double *b) {
       rr[c] = next[c];
     }
     scale_add(system, p, step, r);
-    status = look(s, r, active);
+    status = measure(s, r, active);
   }
   return status;
 }
@@ -184,11 +184,11 @@ static hr2d_status stabilised_gradients(state *s, const double *b) {
   memcpy(s->field[1], r, bytes);
   memcpy(s->field[4], r, bytes);
   hr2di_krylov_dot(system, r, r, rho);
-  hr2d_status status = look(s, r, active);
+  hr2d_status status = measure(s, r, active);
   for (unsigned k = 0; !status && !s->done; k++) {
     if (k == system->max_iterations) return HR2D_ENOT_CONVERGED;
     status = stabilised_step(s, active, rho);
-    if (!status) status = look(s, r, active);
+    if (!status) status = measure(s, r, active);
   }
   return status;
 }

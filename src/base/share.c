@@ -17,7 +17,7 @@ hr2d_status hr2di_share_check(const hr2d_share *share) {
 
 int hr2di_share_has_row(const hr2d_share *share, size_t row, size_t rows) {
   if (!share) return 1;
-  const size_t most = (size_t)RUNS_PER_SHARE * share->count, runs = rows < most ? rows : most;
+  const size_t max = (size_t)RUNS_PER_SHARE * share->count, runs = rows < max ? rows : max;
   const size_t run = (size_t)((double)row * ((double)runs / (double)rows));
   const size_t at = run % share->count;
   return (run / share->count % 2 ? share->count - 1 - at : at) == share->number;
@@ -45,9 +45,9 @@ static double *place(const hr2d_allocator *alloc, const double *own, size_t coun
 
 /* What the callback gave: numbers of records, of which this share knows its own. */
 static int are_counts(const double *counts, const hr2d_share *share, size_t own) {
-  const double most = 9007199254740992; /* 2⁵³: a double holds every integer below it */
+  const double max = 9007199254740992; /* 2⁵³: a double holds every integer below it */
   for (unsigned k = 0; k < share->count; k++)
-    if (!(counts[k] >= 0 && counts[k] < most)) return 0;
+    if (!(counts[k] >= 0 && counts[k] < max)) return 0;
   return counts[share->number] == (double)own;
 }
 

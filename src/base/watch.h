@@ -20,21 +20,21 @@ enum { HR2DI_WATCH_SPAN = 10000 };
 typedef struct hr2di_watch hr2di_watch;
 
 /* Brings `told` up to date. */
-typedef void (*hr2di_watch_describe_fn)(void *of, hr2d_progress *told);
+typedef void (*hr2di_watch_describe_fn)(void *of, hr2d_progress *report);
 
 struct hr2di_watch {
-  hr2d_progress told; /* what the callback gets; the first member, for hr2di_watch_of() */
+  hr2d_progress report; /* what the callback gets; the first member, for hr2di_watch_of() */
   hr2d_progress_fn ask;
   void *ctx;
   hr2di_watch_describe_fn describe; /* NULL: `told` is as it should be */
   void *of;                         /* given to `describe` */
   uint64_t work;                    /* since the callback was asked last */
   uint64_t span;
-  uint64_t most, total; /* the largest `work` at a question, and the sum of all */
-  hr2d_status status;   /* what stopped it, or HR2D_OK */
-  int refused;          /* that is the status of the callback */
-  atomic_int stopped;   /* the status, for other threads and by them */
-  hr2di_watch *leader;  /* of the calling thread, if this is the watch of another thread */
+  uint64_t max, total; /* the largest `work` at a question, and the sum of all */
+  hr2d_status status;  /* what stopped it, or HR2D_OK */
+  int refused;         /* that is the status of the callback */
+  atomic_int stopped;  /* the status, for other threads and by them */
+  hr2di_watch *leader; /* of the calling thread, if this is the watch of another thread */
 };
 
 /* Without a callback nobody is asked, and nothing stops. */
@@ -74,8 +74,8 @@ static inline int hr2di_watch_refused(const hr2di_watch *watch) {
 }
 
 /* The watch that calls a callback back, for tests. */
-static inline hr2di_watch *hr2di_watch_of(const hr2d_progress *told) {
-  return (hr2di_watch *)(uintptr_t)told;
+static inline hr2di_watch *hr2di_watch_of(const hr2d_progress *report) {
+  return (hr2di_watch *)(uintptr_t)report;
 }
 
 #endif

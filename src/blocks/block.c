@@ -12,8 +12,8 @@
 #include "scene/scene-impl.h"
 
 hr2d_status hr2di_integrator_init(hr2di_integrator *w, const hr2d_hierarchy *hierarchy,
-                                  const hr2d_allocator *alloc, size_t order, hr2di_looks *looks,
-                                  hr2di_watch *watch) {
+                                  const hr2d_allocator *alloc, size_t order,
+                                  hr2di_beam_cache *beam_cache, hr2di_watch *watch) {
   const hr2d_scene *scene = hierarchy->scene;
   *w = (hr2di_integrator){.hierarchy = hierarchy,
                           .alloc = *alloc,
@@ -27,8 +27,9 @@ hr2d_status hr2di_integrator_init(hr2di_integrator *w, const hr2d_hierarchy *hie
   if (!status) status = hr2di_moments_init(&w->moments, order, alloc);
   int room = w->rule && !status;
   if (room && scene->effect[HR2D_EFFECT_OCCLUSION].on) {
-    w->sights = hr2di_alloc_zero(alloc, 1, sizeof *w->sights);
-    room = w->sights && !hr2di_patch_sights_init(w->sights, scene, looks, alloc, watch);
+    w->visibility = hr2di_alloc_zero(alloc, 1, sizeof *w->visibility);
+    room = w->visibility &&
+           !hr2di_pair_visibility_init(w->visibility, scene, beam_cache, alloc, watch);
   }
   return room ? HR2D_OK : HR2D_ENOMEM;
 }
@@ -37,9 +38,9 @@ void hr2di_integrator_clear(hr2di_integrator *w) {
   hr2di_alloc_free(&w->alloc, w->phi);
   hr2di_alloc_free(&w->alloc, w->rule);
   hr2di_moments_clear(&w->moments, &w->alloc);
-  if (w->sights) hr2di_patch_sights_clear(w->sights);
-  hr2di_alloc_free(&w->alloc, w->sights);
-  hr2di_sight_list_clear(&w->seen);
+  if (w->visibility) hr2di_pair_visibility_clear(w->visibility);
+  hr2di_alloc_free(&w->alloc, w->visibility);
+  hr2di_line_class_list_clear(&w->seen);
   hr2di_alloc_free(&w->alloc, w->vertex);
   hr2di_alloc_free(&w->alloc, w->trapezoid);
 }
@@ -84,15 +85,15 @@ static void add_chain(hr2di_vertex *vertex, const hr2di_line_frame *f,
 }
 
 static hr2d_status add_sight(hr2di_integrator *w, const hr2di_line_frame *f,
-                             const hr2di_pair_lines *lines, const hr2di_sight *s,
+                             const hr2di_pair_lines *lines, const hr2di_line_class *s,
                              double *block) {
   if (hr2di_alloc_reserve(&w->alloc, &w->vertex, &w->vertex_capacity, s->rights + s->lefts,
                           sizeof *w->vertex))
     return HR2D_ENOMEM;
-  add_chain(w->vertex, f, lines, s->right, s->rights, s->ends & HR2DI_SIGHT_B,
-            s->ends & HR2DI_SIGHT_C);
-  add_chain(w->vertex + s->rights, f, lines, s->left, s->lefts, s->ends & HR2DI_SIGHT_A,
-            s->ends & HR2DI_SIGHT_D);
+  add_chain(w->vertex, f, lines, s->right, s->rights, s->ends & HR2DI_LINE_CLASS_B,
+            s->ends & HR2DI_LINE_CLASS_C);
+  add_chain(w->vertex + s->rights, f, lines, s->left, s->lefts, s->ends & HR2DI_LINE_CLASS_A,
+            s->ends & HR2DI_LINE_CLASS_D);
   return hr2di_block_of_vertices(w, f, w->vertex, s->rights, s->lefts, block);
 }
 
@@ -106,7 +107,7 @@ static hr2d_status add_shaded(hr2di_integrator *w, hr2d_pair pair, double *block
   hr2d_status status = HR2D_OK;
   hr2di_line_frame_init(&f, h, pair);
   for (size_t k = 0; k < w->seen.count && !status; k++) {
-    const hr2di_sight s = hr2di_sight_list_at(&w->seen, k);
+    const hr2di_line_class s = hr2di_line_class_list_at(&w->seen, k);
     status = add_sight(w, &f, &lines, &s, block);
   }
   return status;
@@ -115,17 +116,20 @@ static hr2d_status add_shaded(hr2di_integrator *w, hr2d_pair pair, double *block
 /* Takes what the elements see of each other into w->seen, with the first one's patch looking.
    Elements within roundings of each other may have lost the lines that their ancestors had:
    what was clear to these is not looked at. */
-static hr2d_status look(hr2di_integrator *w, hr2d_pair pair, double area,
-                        hr2di_visibility_class *view) {
+static hr2d_status find_lines(hr2di_integrator *w, hr2d_pair pair, double area,
+                              hr2di_visibility_class *view) {
   const hr2d_element *i = &w->hierarchy->element[pair.first];
   const hr2d_element *j = &w->hierarchy->element[pair.second];
   const hr2di_patch_pair parts = {{i->patch, j->patch}, {{i->a, i->b}, {j->a, j->b}}};
   const int swap = i->patch > j->patch;
   *view = HR2DI_CLEAR;
-  if (!w->sights || hr2d_exchange_area(&parts.part[0], &parts.part[1]) == area) return HR2D_OK;
-  hr2di_sight_list_cut(&w->seen, 0);
-  const hr2d_status status = hr2di_patch_sights_between(w->sights, &parts, &w->seen, NULL);
-  if (!status) *view = hr2di_sights_classify(&w->seen, 0, parts.part[swap], parts.part[!swap]);
+  if (!w->visibility || hr2d_exchange_area(&parts.part[0], &parts.part[1]) == area)
+    return HR2D_OK;
+  hr2di_line_class_list_cut(&w->seen, 0);
+  const hr2d_status status =
+      hr2di_pair_visibility_between(w->visibility, &parts, &w->seen, NULL);
+  if (!status)
+    *view = hr2di_line_classes_classify(&w->seen, 0, parts.part[swap], parts.part[!swap]);
   return status;
 }
 
@@ -142,12 +146,11 @@ static hr2d_status integrate(hr2di_integrator *w, hr2d_pair pair, hr2d_pair give
   *distant = 0;
   hr2d_status status = hr2di_watch_work(w->watch, 2);
   if (status || facing == HR2DI_FACING_NONE) return status;
-  status = look(w, given, area, &view);
+  status = find_lines(w, given, area, &view);
   if (status || view == HR2DI_BLOCKED) return status;
   if (view == HR2DI_PARTIAL) return add_shaded(w, pair, block);
   const int whole = facing == HR2DI_FACING_FULL;
-  const double m[] = {whole ? hr2di_ellipse_least(s, t) : 0,
-                      whole ? hr2di_ellipse_least(t, s) : 0};
+  const double m[] = {whole ? hr2di_ellipse_min(s, t) : 0, whole ? hr2di_ellipse_min(t, s) : 0};
   *distant = m[0] >= HR2DI_ELLIPSE_DISTANT && m[1] >= HR2DI_ELLIPSE_DISTANT;
   if (*distant) {
     hr2di_pair_frame f;

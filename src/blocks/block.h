@@ -11,12 +11,12 @@
 #include "base/watch.h"
 #include "blocks/lines.h"
 #include "blocks/moments.h"
-#include "visibility/patch-sights.h"
+#include "visibility/pair-visibility.h"
 
 /* A distant pair i = ab, j = cd, seen from x = a + s(b−a) and y = c + t(d−c). */
 typedef struct hr2di_pair_frame {
   hr2d_point along_i, along_j; /* b − a, d − c */
-  hr2d_point apart;            /* c − a */
+  hr2d_point separation;       /* c − a */
   double length_i, length_j;
   double above_i[2]; /* how far c and d are in front of the line of i */
   double above_j[2]; /* how far a and b are in front of the line of j */
@@ -38,12 +38,12 @@ typedef struct hr2di_integrator {
   hr2di_basis basis;
   size_t points; /* of a rule for distant pairs, for each element, at most */
   double *phi;   /* φ_0 … at the points of rules of up to so many, one behind the other */
-  double apart[HR2DI_RULE_POINTS]; /* the ellipse at which n points are enough, at n − 1 */
-  hr2di_rule *rule;                /* of n points at n − 1, once it is made */
+  double separation[HR2DI_RULE_POINTS]; /* the ellipse at which n points are enough, at n − 1 */
+  hr2di_rule *rule;                     /* of n points at n − 1, once it is made */
   unsigned char made[HR2DI_RULE_POINTS], tabled[HR2DI_RULE_POINTS];
   hr2di_moments moments;
-  hr2di_patch_sights *sights; /* NULL if the scene needs no occlusion */
-  hr2di_sight_list seen;      /* of the pair under way */
+  hr2di_pair_visibility *visibility; /* NULL if the scene needs no occlusion */
+  hr2di_line_class_list seen;        /* of the pair under way */
   hr2di_vertex *vertex;
   size_t vertex_capacity;
   hr2di_trapezoid *trapezoid;
@@ -54,8 +54,8 @@ typedef struct hr2di_integrator {
 /* What patches see is kept in `looks`, unless that is NULL.  Returns HR2D_OK or HR2D_ENOMEM.
    Call hr2di_integrator_clear() in either case. */
 hr2d_status hr2di_integrator_init(hr2di_integrator *work, const hr2d_hierarchy *hierarchy,
-                                  const hr2d_allocator *alloc, size_t order, hr2di_looks *looks,
-                                  hr2di_watch *watch);
+                                  const hr2d_allocator *alloc, size_t order,
+                                  hr2di_beam_cache *beam_cache, hr2di_watch *watch);
 
 /* Takes so many points for each element of a distant pair, in the place of two more than the
    order.  With `fewer` that is where a pair is as near as it may be; others take as many as

@@ -83,10 +83,10 @@ static double nearest(const outline *o, double kappa) {
 }
 
 /* Chooses κ so that the nearest singularity is as far away as can be. */
-static double choose_kappa(const outline *o, double *most) {
+static double choose_kappa(const outline *o, double *max) {
   enum { ENOUGH = 3 };
-  *most = nearest(o, 1);
-  if (*most >= ENOUGH) return 1;
+  *max = nearest(o, 1);
+  if (*max >= ENOUGH) return 1;
   const double by_i = o->across[0][0] / o->across[0][1];
   const double by_j = o->across[1][0] / o->across[1][1];
   const double candidate[] = {by_i, by_j, sqrt(by_i * by_j)};
@@ -94,8 +94,8 @@ static double choose_kappa(const outline *o, double *most) {
   for (int k = 0; k < 3; k++) {
     if (!(candidate[k] > 0x1p-20 && candidate[k] < 0x1p+20)) continue;
     const double m = nearest(o, candidate[k]);
-    if (m <= *most) continue;
-    *most = m;
+    if (m <= *max) continue;
+    *max = m;
     kappa = candidate[k];
   }
   return kappa;
@@ -116,15 +116,15 @@ static double place_at(const double across[2], const double start[2], double x, 
 static double reach(const hr2di_meeting *m, const double gap[2], double scale, double rho) {
   const double major = 0.25 * (rho + 1 / rho), minor = 0.25 * (rho - 1 / rho);
   const double across[2] = {m->across[0], scale * m->across[1]};
-  double most = 1;
+  double max = 1;
   for (int k = 0; k < 2; k++) {
     const double start[2] = {m->start[0] + k * gap[0], scale * (m->start[1] + k * gap[1])};
     if (m->fixed & (1u << k)) continue;
-    most = greater(place_at(across, start, major, 0), most);
-    most = greater(place_at(across, start, -major, 0), most);
-    most = greater(place_at(across, start, 0, minor), most);
+    max = greater(place_at(across, start, major, 0), max);
+    max = greater(place_at(across, start, -major, 0), max);
+    max = greater(place_at(across, start, 0, minor), max);
   }
-  return ellipse(most);
+  return ellipse(max);
 }
 
 /* ln (ρ_i ρ_j)^(p−1) on the ellipse ρ. */
@@ -237,10 +237,10 @@ static void add_directions(hr2di_integrator *w, const hr2di_trapezoid *t, choice
 /* The weights that divide where the rates at which u × e and e × v grow have the same sum on
    either side; |e0| = |e1|. */
 static void choose_middle(const outline *o, double m[2]) {
-  const double least = 0x1p-60;
+  const double min = 0x1p-60;
   const double *i = o->across[0], *j = o->across[1];
-  const double by_i = (i[1] + least * i[0]) / (i[0] + least * i[1]);
-  const double by_j = (j[1] + least * j[0]) / (j[0] + least * j[1]);
+  const double by_i = (i[1] + min * i[0]) / (i[0] + min * i[1]);
+  const double by_j = (j[1] + min * j[0]) / (j[0] + min * j[1]);
   const double more = greater(by_i, by_j), less = lesser(by_i, by_j);
   const double rate = less >= 1 ? more : more <= 1 ? less : by_i * by_j;
   const double weight = 1 / sqrt(rate);

@@ -37,13 +37,13 @@ static void set_heights(const hr2di_vector *along, double length, const hr2di_ve
 void hr2di_pair_frame_init(hr2di_pair_frame *f, const hr2d_hierarchy *h, hr2d_pair pair) {
   hr2di_line_frame lines;
   hr2di_line_frame_init(&lines, h, pair);
-  const hr2di_vector apart = hr2di_vector_minus(&lines.c, &lines.a);
-  const double scale = hr2di_vector_scale(&apart), back = 1 / scale;
+  const hr2di_vector separation = hr2di_vector_minus(&lines.c, &lines.a);
+  const double scale = hr2di_vector_scale(&separation), back = 1 / scale;
   const hr2di_between z = vectors_between(&lines, scale);
   const hr2di_vector ca = hr2di_vector_reversed(&z.ac), db = hr2di_vector_reversed(&z.bd);
   f->along_i = rounded(&z.ab, back);
   f->along_j = rounded(&z.cd, back);
-  f->apart = rounded(&z.ac, back);
+  f->separation = rounded(&z.ac, back);
   f->length_i = h->element[pair.first].length;
   f->length_j = h->element[pair.second].length;
   set_heights(&z.ab, scale * f->length_i, &z.ac, &z.bd, back, f->above_i);
@@ -54,7 +54,7 @@ void hr2di_pair_frame_init(hr2di_pair_frame *f, const hr2d_hierarchy *h, hr2d_pa
 /* The points for an element that sees the other one on the ellipse m. */
 static size_t points_for(const hr2di_integrator *w, double m) {
   size_t n = w->points;
-  while (n > 1 && m >= w->apart[n - 2]) n--;
+  while (n > 1 && m >= w->separation[n - 2]) n--;
   return n;
 }
 
@@ -82,7 +82,7 @@ void hr2di_block_distant(hr2di_integrator *w, const hr2di_pair_frame *f, const d
   if (hr2di_watch_work(w->watch, 1 + on_i->points * on_j->points * (8 + p) / 64)) return;
   for (size_t k = 0; k < on_i->points; k++) {
     const double s = 0.5 + 0.5 * on_i->at[k];
-    const double x = f->apart.x - s * f->along_i.x, y = f->apart.y - s * f->along_i.y;
+    const double x = f->separation.x - s * f->along_i.x, y = f->separation.y - s * f->along_i.y;
     const double outer = scale * on_i->weight[k] * hr2di_block_mix(f->above_j, s);
     memset(moment, 0, p * sizeof *moment);
     for (size_t q = 0; q < on_j->points; q++) {

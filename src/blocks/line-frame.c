@@ -64,9 +64,9 @@ static void measure_apart(hr2di_line_frame *f, const hr2d_hierarchy *h, hr2d_pai
                           const hr2di_vector *along_p, const hr2di_vector *along_q) {
   f->origin = measure_along(h, pair.first, along_p, &f->u, &f->a, &f->b);
   const hr2d_point other = measure_along(h, pair.second, along_q, &f->v, &f->c, &f->d);
-  const hr2di_vector apart = hr2di_vector_difference(other, f->origin);
-  f->c = hr2di_vector_plus(&f->c, &apart);
-  f->d = hr2di_vector_plus(&f->d, &apart);
+  const hr2di_vector difference = hr2di_vector_difference(other, f->origin);
+  f->c = hr2di_vector_plus(&f->c, &difference);
+  f->d = hr2di_vector_plus(&f->d, &difference);
 }
 
 void hr2di_line_frame_init(hr2di_line_frame *f, const hr2d_hierarchy *h, hr2d_pair pair) {
@@ -128,8 +128,8 @@ static hr2di_vertex clipped(const hr2di_line_frame *f, unsigned own, double at,
   const hr2di_vector *along = own == HR2DI_ON_I ? &f->u : &f->v;
   if (here < 0) at = height[0] / (height[0] - height[1]);
   if (here <= 0 && there > 0) z.on = HR2DI_ON_BOTH;
-  const hr2di_vector way = hr2di_vector_times(along, at);
-  z.at = hr2di_vector_plus(from, &way);
+  const hr2di_vector offset = hr2di_vector_times(along, at);
+  z.at = hr2di_vector_plus(from, &offset);
   const unsigned other = z.on & ~own;
   z.s = own == HR2DI_ON_I ? at : other ? place(&z.at, &f->a, &f->u) : 0;
   z.t = own == HR2DI_ON_J ? at : other ? place(&z.at, &f->c, &f->v) : 0;
@@ -143,8 +143,8 @@ static double size_of(const hr2di_vector *p) {
 /* Ends of i and of j within roundings are one, as where i stands on j: the direction from one
    to the other would be noise. */
 static void join(const hr2di_line_frame *f, hr2di_vertex *on_i, hr2di_vertex *on_j) {
-  const hr2di_vector way = hr2di_vector_minus(&on_j->at, &on_i->at);
-  if (size_of(&way) > NEAR * fmin(size_of(&f->u), size_of(&f->v))) return;
+  const hr2di_vector offset = hr2di_vector_minus(&on_j->at, &on_i->at);
+  if (size_of(&offset) > NEAR * fmin(size_of(&f->u), size_of(&f->v))) return;
   on_i->t = on_j->t;
   on_j->s = on_i->s;
   on_j->at = on_i->at;

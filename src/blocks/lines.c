@@ -31,8 +31,8 @@ static hr2di_vector direction(const hr2di_line_frame *f, const hr2di_vertex *p,
 static ray ray_through(const hr2di_line_frame *f, const hr2di_vertex *p,
                        const hr2di_vertex *q) {
   const unsigned both = p->on & q->on;
-  const hr2di_vector way = direction(f, p, q);
-  ray r = {.from = p, .to = q, .e = hr2di_vector_scaled(&way, hr2di_vector_scale(&way))};
+  const hr2di_vector offset = direction(f, p, q);
+  ray r = {.from = p, .to = q, .e = hr2di_vector_scaled(&offset, hr2di_vector_scale(&offset))};
   if (!(both & HR2DI_ON_I)) r.across[0] = not_negative(hr2di_vector_cross(&f->u, &r.e));
   if (!(both & HR2DI_ON_J)) r.across[1] = not_negative(hr2di_vector_cross(&r.e, &f->v));
   r.length = hr2di_vector_length(&r.e);
@@ -50,8 +50,8 @@ static void set_places(unsigned bit, const hr2di_vertex *first, const hr2di_vert
 
 /* (at − from) × e */
 static double offset(const hr2di_vector *at, const hr2di_vector *from, const hr2di_vector *e) {
-  const hr2di_vector way = hr2di_vector_minus(at, from);
-  return hr2di_vector_cross(&way, e);
+  const hr2di_vector offset = hr2di_vector_minus(at, from);
+  return hr2di_vector_cross(&offset, e);
 }
 
 /* Sets what belongs to end k of a trapezoid.  With one place known the other is off by

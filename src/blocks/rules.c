@@ -17,7 +17,7 @@ static void set_apart(hr2di_integrator *w) {
   const double digits = (2 * (double)w->points - order + 1) * log(m + sqrt(m * m - 1));
   for (size_t n = 1; n < w->points; n++) {
     const double rate = 2 * (double)(n - 1) - order + 1;
-    w->apart[n - 1] = rate > 0 ? cosh(digits / rate) : HUGE_VAL;
+    w->separation[n - 1] = rate > 0 ? cosh(digits / rate) : HUGE_VAL;
   }
 }
 
@@ -26,8 +26,8 @@ hr2d_status hr2di_integrator_points(hr2di_integrator *w, size_t points, int fewe
   w->points = points;
   w->phi = hr2di_alloc(&w->alloc, points * (points + 1) / 2, w->order * sizeof *w->phi);
   memset(w->tabled, 0, sizeof w->tabled);
-  for (size_t n = 0; n + 1 < points; n++) w->apart[n] = HUGE_VAL;
-  w->apart[points - 1] = 0;
+  for (size_t n = 0; n + 1 < points; n++) w->separation[n] = HUGE_VAL;
+  w->separation[points - 1] = 0;
   if (fewer) set_apart(w);
   return w->phi ? HR2D_OK : HR2D_ENOMEM;
 }

@@ -11,7 +11,7 @@
 #include "clusters/facing.h"
 #include "clusters/occlusion.h"
 #include "scene/scene-impl.h"
-#include "visibility/row-maker.h"
+#include "visibility/row-assembly.h"
 
 /* NEAR pairs are handed over at a time.  A link costs as much as its points times those of
    the other.  Where few pairs of patches are left, and walls may be in the way, they are put
@@ -209,16 +209,16 @@ static hr2d_status settle_row(void *ctx, size_t worker, const hr2di_row *row) {
 
 /* A task may be left out if nothing was put off for its patches. */
 static hr2d_status settle_rows(settling *s, const hr2d_scene *scene) {
-  hr2di_row_maker rows;
-  hr2d_status status = hr2di_row_maker_init(&rows, scene, 1, 1, s->w->watch);
+  hr2di_row_assembly rows;
+  hr2d_status status = hr2di_row_assembly_init(&rows, scene, 1, 1, s->w->watch);
   for (size_t k = 0; k < rows.tasks && !status; k++) {
     int any = 0;
     for (uint32_t m = rows.task[k].first; m < rows.task[k].last && !any; m++)
       any = mark_put_off(s, scene->runs.patch[m]);
     status = hr2di_watch_work(s->w->watch, 1);
-    if (any && !status) status = hr2di_row_maker_run(&rows, k, k + 1, settle_row, s);
+    if (any && !status) status = hr2di_row_assembly_run(&rows, k, k + 1, settle_row, s);
   }
-  hr2di_row_maker_clear(&rows);
+  hr2di_row_assembly_clear(&rows);
   return status;
 }
 

@@ -59,8 +59,8 @@ static double around(double half, double along, double aside) {
   return hypot(along - half, aside) + hypot(along + half, aside);
 }
 
-static int apart(const hr2di_cluster *c, const hr2di_expansion *far, const hr2di_cluster *other,
-                 double min) {
+static int separated(const hr2di_cluster *c, const hr2di_expansion *far,
+                     const hr2di_cluster *other, double min) {
   const hr2di_extent e = hr2di_cluster_extent_of(c, other, &other->nested);
   const double u0 = e.u0 - far->at[0], u1 = e.u1 - far->at[0];
   const double v0 = e.v0 - far->at[1], v1 = e.v1 - far->at[1];
@@ -75,7 +75,7 @@ int hr2di_expansion_apart(const hr2di_cluster *i, const hr2di_expansion *far_i,
                           const hr2di_cluster *j, const hr2di_expansion *far_j,
                           double accuracy) {
   const double min = 8 * HR2DI_CLUSTER_TOUCH / accuracy;
-  return apart(i, far_i, j, min) && apart(j, far_j, i, min);
+  return separated(i, far_i, j, min) && separated(j, far_j, i, min);
 }
 
 size_t hr2di_expansion_gauss(const hr2di_expansion *far, double length, size_t order,

@@ -9,7 +9,7 @@
 #include "base/alloc.h"
 #include "base/choices.h"
 #include "scene/scene-impl.h"
-#include "visibility/row-maker.h"
+#include "visibility/row-assembly.h"
 
 /* What beams of one thread find. */
 typedef struct found {
@@ -21,7 +21,7 @@ typedef struct collector {
   hr2di_roots *roots;
   const hr2d_allocator *alloc;
   found *found;        /* of each thread */
-  size_t most;         /* pairs that beams may find */
+  size_t max;          /* pairs that beams may find */
   atomic_size_t total; /* that they found so far */
 } collector;
 
@@ -38,7 +38,7 @@ static hr2d_status collect(void *ctx, const hr2d_pair *pairs, size_t count) {
 static hr2d_status collect_row(void *ctx, size_t worker, const hr2di_row *row) {
   collector *c = ctx;
   found *of = &c->found[worker];
-  if (atomic_fetch_add(&c->total, row->count) + row->count > c->most) return HR2D_STOPPED;
+  if (atomic_fetch_add(&c->total, row->count) + row->count > c->max) return HR2D_STOPPED;
   if (hr2di_alloc_reserve(c->alloc, &of->pair, &of->capacity, of->count + row->count,
                           sizeof *of->pair))
     return HR2D_ENOMEM;
@@ -50,7 +50,7 @@ static hr2d_status collect_row(void *ctx, size_t worker, const hr2di_row *row) {
 }
 
 static int found_too_many(const collector *c) {
-  return atomic_load(&c->total) > c->most;
+  return atomic_load(&c->total) > c->max;
 }
 
 /* Pairs between two declarations of work. */
@@ -75,15 +75,15 @@ static hr2d_status unite(collector *c, size_t threads, hr2d_status status, hr2di
 /* Half rows have each pair once or twice. */
 static hr2d_status find_by_beams(collector *c, const hr2d_scene *scene, unsigned threads,
                                  hr2di_watch *watch) {
-  hr2di_row_maker maker;
-  hr2d_status status = hr2di_row_maker_init(&maker, scene, threads, 0, watch);
-  c->most = HR2DI_CHOICE_CLUSTERS_SEEN * scene->patches;
+  hr2di_row_assembly maker;
+  hr2d_status status = hr2di_row_assembly_init(&maker, scene, threads, 0, watch);
+  c->max = HR2DI_CHOICE_CLUSTERS_SEEN * scene->patches;
   c->found = hr2di_alloc_zero(c->alloc, maker.workers, sizeof *c->found);
   if (!status && !c->found) status = HR2D_ENOMEM;
-  if (!status) status = hr2di_row_maker_run(&maker, 0, maker.tasks, collect_row, c);
+  if (!status) status = hr2di_row_assembly_run(&maker, 0, maker.tasks, collect_row, c);
   const int stopped = status == HR2D_STOPPED && found_too_many(c);
   if (c->found) status = unite(c, maker.workers, status, watch);
-  hr2di_row_maker_clear(&maker);
+  hr2di_row_assembly_clear(&maker);
   return stopped ? hr2di_watch_status(watch) : status;
 }
 

@@ -115,8 +115,8 @@ int hr2di_shaft_meets_box(const hr2di_shaft *shaft, double x0, double x1, double
   /* The sides between i and j keep out the most. */
   for (int k = 3; k >= 0; k--) {
     const hr2di_half_plane *s = &shaft->side[k];
-    const double most = s->nx * (s->nx > 0 ? x1 : x0) + s->ny * (s->ny > 0 ? y1 : y0);
-    if (most + s->offset < -s->margin) return 0;
+    const double max = s->nx * (s->nx > 0 ? x1 : x0) + s->ny * (s->ny > 0 ? y1 : y0);
+    if (max + s->offset < -s->margin) return 0;
   }
   return 1;
 }
@@ -125,8 +125,8 @@ int hr2di_shaft_has_in_front(const hr2di_shaft *shaft, double x0, double x1, dou
                              double y1) {
   for (int k = 0; k < 2; k++) {
     const hr2di_half_plane *s = &shaft->side[k];
-    const double least = s->nx * (s->nx > 0 ? x0 : x1) + s->ny * (s->ny > 0 ? y0 : y1);
-    if (least + s->offset <= s->margin) return 0;
+    const double min = s->nx * (s->nx > 0 ? x0 : x1) + s->ny * (s->ny > 0 ? y0 : y1);
+    if (min + s->offset <= s->margin) return 0;
   }
   return 1;
 }

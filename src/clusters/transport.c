@@ -289,9 +289,9 @@ static hr2d_status run_shared(gather *g) {
 
 static hr2d_status hire(gather *g, unsigned threads) {
   const hr2d_allocator *alloc = &g->c->alloc;
-  const size_t asked = hr2di_team_threads(threads), most = g->c->scene->patches / WORTH + 1;
+  const size_t asked = hr2di_team_threads(threads), max = g->c->scene->patches / WORTH + 1;
   size_t count = asked < MOST_THREADS ? asked : MOST_THREADS;
-  if (count > most) count = most;
+  if (count > max) count = max;
   for (; g->workers < count; g->workers++) {
     worker *w = &g->worker[g->workers];
     hr2di_watch_follow(&w->own, g->watch);

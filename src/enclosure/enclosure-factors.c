@@ -88,8 +88,8 @@ static double factor(const end *a, const end *b, double u) {
 
 static void include(hr2di_range *r, const end *a, const end *b, double u) {
   const double f = factor(a, b, u);
-  r->least = fmin(r->least, f);
-  r->most = fmax(r->most, f);
+  r->lower = fmin(r->lower, f);
+  r->upper = fmax(r->upper, f);
 }
 
 /* Where the derivative vanishes between 0 and `size`. */
@@ -112,14 +112,14 @@ static double distance(const hr2di_enclosed *i, hr2d_point v) {
 }
 
 /* The smallest distance of two patches that do not cross is that of an end. */
-static double least_distance(const hr2di_enclosed *i, const hr2di_enclosed *j) {
+static double min_distance(const hr2di_enclosed *i, const hr2di_enclosed *j) {
   return fmin(fmin(distance(i, j->part.a), distance(i, j->part.b)),
               fmin(distance(j, i->part.a), distance(j, i->part.b)));
 }
 
 /* What F may differ from a straight line; infinite where its derivative jumps. */
 static double bend(const hr2di_enclosed *i, const hr2di_enclosed *j, double size, double high) {
-  const double off = i->off + j->off, r = least_distance(i, j) - 2 * off;
+  const double off = i->off + j->off, r = min_distance(i, j) - 2 * off;
   const double ga = above(j, i->part.a), gb = above(j, i->part.b);
   if (!(r > 4 * off) || ga < 0 || gb < 0) return INFINITY;
   const double length = along(j, j->part.b) + off, h = high + off;
@@ -151,15 +151,15 @@ hr2di_strip hr2di_factor_strip(const hr2di_enclosed *i, const hr2di_enclosed *j)
   include(&r, &a, &b, size);
   include_roots(&r, &a, &b, size);
   const double margin = SINES + turn(&a, size, off) + turn(&b, size, off);
-  r = (hr2di_range){fmax(0, r.least - margin), fmin(1, fmax(0, r.most) + margin)};
+  r = (hr2di_range){fmax(0, r.lower - margin), fmin(1, fmax(0, r.upper) + margin)};
   const double bent = margin + bend(i, j, size, high);
   const double at_a = factor(&a, &b, 0), at_b = factor(&a, &b, size);
-  if (2 * bent < r.most - r.least && fmin(at_a, at_b) >= bent)
+  if (2 * bent < r.upper - r.lower && fmin(at_a, at_b) >= bent)
     return strip_of(around(at_a, bent), around(at_b, bent));
   return strip_of(r, r);
 }
 
-static double most_distance(hr2d_segment i, hr2d_segment j) {
+static double max_distance(hr2d_segment i, hr2d_segment j) {
   const double r =
       fmax(hypot(i.a.x - j.a.x, i.a.y - j.a.y), hypot(i.a.x - j.b.x, i.a.y - j.b.y));
   const double s =
@@ -171,14 +171,14 @@ static double most_distance(hr2d_segment i, hr2d_segment j) {
    these have their extremes at ends, and so has the smallest r, as patches do not cross. */
 double hr2di_kernel_spread(const hr2di_enclosed *i, const hr2di_enclosed *j) {
   const double off = i->off + j->off;
-  const double near = least_distance(i, j);
-  const double least = near - 2 * off, most = most_distance(i->part, j->part) + 2 * off;
-  if (!(least > 0.5 * near)) return INFINITY;
+  const double near = min_distance(i, j);
+  const double lower = near - 2 * off, upper = max_distance(i->part, j->part) + 2 * off;
+  if (!(lower > 0.5 * near)) return INFINITY;
   const double ha = above(i, j->part.a), hb = above(i, j->part.b);
   const double ga = above(j, i->part.a), gb = above(j, i->part.b);
   const double high = fmax(fmax(ha, hb) + off, 0) * fmax(fmax(ga, gb) + off, 0);
   const double low = fmax(fmin(ha, hb) - off, 0) * fmax(fmin(ga, gb) - off, 0);
   /* Roundings of these lines. */
   const double up = 1 + 64 * DBL_EPSILON, down = 1 - 64 * DBL_EPSILON;
-  return up * high / (2 * least * least * least) - down * low / (2 * most * most * most);
+  return up * high / (2 * lower * lower * lower) - down * low / (2 * upper * upper * upper);
 }

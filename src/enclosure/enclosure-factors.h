@@ -18,7 +18,7 @@ void hr2di_enclosed_init(hr2di_enclosed *e, hr2d_segment part, hr2d_segment patc
 
 /* A range that holds a number for certain: roundings are in it. */
 typedef struct hr2di_range {
-  double least, most;
+  double lower, upper;
 } hr2di_range;
 
 /* A function of the place on an element that lies between two straight lines: their values at

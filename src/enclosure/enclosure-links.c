@@ -36,12 +36,12 @@ static hr2di_strip turned(hr2di_strip s) {
 /* Where something is in the way, any part of it may be. */
 static hr2di_strip weighed(hr2di_strip s, double weight, int is_free) {
   if (!is_free) {
-    const hr2di_range any = {0, weight * fmax(s.at[0].most, s.at[1].most)};
+    const hr2di_range any = {0, weight * fmax(s.at[0].upper, s.at[1].upper)};
     return (hr2di_strip){{any, any}};
   }
   for (int k = 0; k < 2; k++) {
-    s.at[k].least *= weight;
-    s.at[k].most *= weight;
+    s.at[k].lower *= weight;
+    s.at[k].upper *= weight;
   }
   return s;
 }

@@ -33,11 +33,11 @@ static double length_of_patch(const hr2di_enclosing *e, uint32_t leaf) {
 static double part_of(const hr2di_enclosing *e, const hr2di_enclosed_link *l, int from,
                       const double *scale) {
   const hr2di_lit_range *b = &e->b[l->of[from] * e->bands];
-  double most = 0;
+  double upper = 0;
   for (size_t k = 0; k < e->bands; k++)
     if (scale[k] > 0)
-      most = fmax(most, hr2di_covariance_of(&l->factor[from], &b[k].point).off / scale[k]);
-  return most * e->hierarchy->element[l->of[from]].length / length_of_patch(e, l->of[!from]);
+      upper = fmax(upper, hr2di_covariance_of(&l->factor[from], &b[k].point).off / scale[k]);
+  return upper * e->hierarchy->element[l->of[from]].length / length_of_patch(e, l->of[!from]);
 }
 
 static hr2d_status add_parts(const hr2di_enclosing *e, const double *scale, double *sum) {
@@ -76,10 +76,11 @@ static hr2d_status count_links(const hr2di_enclosing *e, const unsigned char *ma
 
 static size_t count_largest(const share *list, size_t count) {
   double all = 0, sum = 0;
-  size_t most = 0;
+  size_t upper = 0;
   for (size_t k = 0; k < count; k++) all += list[k].of_gap;
-  while (most < count && sum < HR2DI_CHOICE_ENCLOSURE_MARKED * all) sum += list[most++].of_gap;
-  return most;
+  while (upper < count && sum < HR2DI_CHOICE_ENCLOSURE_MARKED * all)
+    sum += list[upper++].of_gap;
+  return upper;
 }
 
 /* Of those that are too many, half as many, until they are not; less than

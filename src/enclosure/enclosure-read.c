@@ -5,7 +5,7 @@
 #include "base/alloc.h"
 #include "enclosure/enclosure-impl.h"
 #include "links/linkset-impl.h"
-#include "scene/settled.h"
+#include "scene/frozen-temperatures.h"
 
 void hr2d_enclosure_destroy(hr2d_enclosure *enclosure) {
   if (!enclosure) return;
@@ -22,19 +22,19 @@ static hr2di_range read(const hr2d_enclosure *e, const hr2di_range *from, size_t
 }
 
 double hr2d_enclosure_lower(const hr2d_enclosure *e, size_t patch, size_t band) {
-  return read(e, e ? e->b : NULL, patch, band).least;
+  return read(e, e ? e->b : NULL, patch, band).lower;
 }
 
 double hr2d_enclosure_upper(const hr2d_enclosure *e, size_t patch, size_t band) {
-  return read(e, e ? e->b : NULL, patch, band).most;
+  return read(e, e ? e->b : NULL, patch, band).upper;
 }
 
 double hr2d_enclosure_lower_irradiance(const hr2d_enclosure *e, size_t patch, size_t band) {
-  return read(e, e ? e->h : NULL, patch, band).least;
+  return read(e, e ? e->h : NULL, patch, band).lower;
 }
 
 double hr2d_enclosure_upper_irradiance(const hr2d_enclosure *e, size_t patch, size_t band) {
-  return read(e, e ? e->h : NULL, patch, band).most;
+  return read(e, e ? e->h : NULL, patch, band).upper;
 }
 
 typedef double read_mean(const hr2d_solution *solution, size_t patch, size_t band);
@@ -44,12 +44,12 @@ static double error_of(const hr2d_enclosure *e, const hr2di_range *range,
                        const hr2d_solution *solution, read_mean *mean, double floor) {
   double error = 0;
   for (size_t b = 0; b < e->bands; b++) {
-    double most = 0;
-    for (size_t k = 0; k < e->patches; k++) most = fmax(most, range[k * e->bands + b].least);
+    double upper = 0;
+    for (size_t k = 0; k < e->patches; k++) upper = fmax(upper, range[k * e->bands + b].lower);
     for (size_t k = 0; k < e->patches; k++) {
       const hr2di_range r = range[k * e->bands + b];
-      const double m = mean(solution, k, b), off = fmax(m - r.least, r.most - m);
-      if (off > 0) error = fmax(error, off / fmax(r.least, floor * most));
+      const double m = mean(solution, k, b), off = fmax(m - r.lower, r.upper - m);
+      if (off > 0) error = fmax(error, off / fmax(r.lower, floor * upper));
     }
   }
   return error;

@@ -7,7 +7,7 @@
 #include <stdio.h>
 
 #include "enclosure/enclosure-sweep.h"
-#include "scene/settled.h"
+#include "scene/frozen-temperatures.h"
 
 /* Products of three numbers and a thousand sums of them neither over- nor underflow. */
 #define LARGEST 0x1p900
@@ -34,8 +34,8 @@ static const char *patch_reason(const hr2d_scene *scene, size_t patch, size_t ba
 }
 
 static int is_out_of_range(const hr2d_scene *scene, size_t band) {
-  const double most = hr2di_enclosing_most(scene, band);
-  return most > 0 && !(most >= LEAST && most <= LARGEST);
+  const double upper = hr2di_enclosing_max(scene, band);
+  return upper > 0 && !(upper >= LEAST && upper <= LARGEST);
 }
 
 hr2d_status hr2di_enclosure_refused(const hr2d_scene *scene, char *reason, size_t room) {
@@ -52,7 +52,7 @@ hr2d_status hr2di_enclosure_refused(const hr2d_scene *scene, char *reason, size_
       snprintf(reason, room,
                "the radiosity of band %zu may be up to %.0e, beyond what is enclosed: choose "
                "another unit",
-               b, hr2di_enclosing_most(scene, b));
+               b, hr2di_enclosing_max(scene, b));
     }
   return why ? HR2D_EUNSUPPORTED : HR2D_OK;
 }

@@ -31,35 +31,35 @@ int hr2di_enclosing_has(const hr2di_enclosing *e, uint32_t element) {
 }
 
 static hr2di_range narrower(hr2di_range a, hr2di_range b) {
-  return (hr2di_range){fmax(a.least, b.least), fmin(a.most, b.most)};
+  return (hr2di_range){fmax(a.lower, b.lower), fmin(a.upper, b.upper)};
 }
 
-static void add(hr2di_range *sum, double least, double most) {
-  sum->least += least;
-  sum->most += most;
+static void add(hr2di_range *sum, double lower, double upper) {
+  sum->lower += lower;
+  sum->upper += upper;
 }
 
-static double least_of(const hr2di_strip *s) {
-  return fmax(0, fmin(s->at[0].least, s->at[1].least));
+static double min_of(const hr2di_strip *s) {
+  return fmax(0, fmin(s->at[0].lower, s->at[1].lower));
 }
 
-static double most_of(const hr2di_strip *s) {
-  return fmax(s->at[0].most, s->at[1].most);
+static double max_of(const hr2di_strip *s) {
+  return fmax(s->at[0].upper, s->at[1].upper);
 }
 
 static hr2di_range mean_of(const hr2di_strip *s) {
-  return (hr2di_range){0.5 * (s->at[0].least + s->at[1].least),
-                       0.5 * (s->at[0].most + s->at[1].most)};
+  return (hr2di_range){0.5 * (s->at[0].lower + s->at[1].lower),
+                       0.5 * (s->at[0].upper + s->at[1].upper)};
 }
 
 /* Half the height of a strip at its higher end. */
 static double half_of(const hr2di_strip *s) {
-  return 0.5 * fmax(s->at[0].most - s->at[0].least, s->at[1].most - s->at[1].least);
+  return 0.5 * fmax(s->at[0].upper - s->at[0].lower, s->at[1].upper - s->at[1].lower);
 }
 
 /* How much the middle of a strip rises. */
 static double rise_of(const hr2di_strip *s) {
-  return 0.5 * (s->at[1].least + s->at[1].most) - 0.5 * (s->at[0].least + s->at[0].most);
+  return 0.5 * (s->at[1].lower + s->at[1].upper) - 0.5 * (s->at[0].lower + s->at[0].upper);
 }
 
 /* The standard deviation of a straight line is its rise by √12; that of what is left of a
@@ -77,17 +77,17 @@ hr2di_covariance hr2di_covariance_of(const hr2di_strip *f, const hr2di_strip *b)
 static void add_at_points(const hr2di_strip *f, const hr2di_lit_range *b, double off,
                           hr2di_strip *sum) {
   const hr2di_range mean = mean_of(f);
-  const double least = least_of(&b->point), most = most_of(&b->point);
-  const int low = mean.least * b->mean.least - off > mean.least * least;
-  const int high = mean.most * b->mean.most + off < mean.most * most;
+  const double lower = min_of(&b->point), upper = max_of(&b->point);
+  const int low = mean.lower * b->mean.lower - off > mean.lower * lower;
+  const int high = mean.upper * b->mean.upper + off < mean.upper * upper;
   for (int k = 0; k < 2; k++)
-    add(&sum->at[k], f->at[k].least * (low ? b->mean.least : least) - (low ? off : 0),
-        f->at[k].most * (high ? b->mean.most : most) + (high ? off : 0));
+    add(&sum->at[k], f->at[k].lower * (low ? b->mean.lower : lower) - (low ? off : 0),
+        f->at[k].upper * (high ? b->mean.upper : upper) + (high ? off : 0));
 }
 
 /* The mean factor from an element of this length, with what is known of it at points. */
 static hr2di_range mean_factor(const hr2di_enclosed_link *l, int to, double length) {
-  const hr2di_range mean = {l->area.least / length, l->area.most / length};
+  const hr2di_range mean = {l->area.lower / length, l->area.upper / length};
   return narrower(mean, mean_of(&l->factor[to]));
 }
 
@@ -98,10 +98,10 @@ static void gather(const hr2di_enclosed_link *l, int to, const double *length,
   const hr2di_covariance c = hr2di_covariance_of(&l->factor[!to], &b->point);
   const double part = length[!to] / length[to];
   add(&h->mean,
-      fmax(mean.least * least_of(&b->point),
-           mean.least * b->mean.least + part * (c.value - c.off)),
-      fmin(mean.most * most_of(&b->point),
-           mean.most * b->mean.most + part * (c.value + c.off)));
+      fmax(mean.lower * min_of(&b->point),
+           mean.lower * b->mean.lower + part * (c.value - c.off)),
+      fmin(mean.upper * max_of(&b->point),
+           mean.upper * b->mean.upper + part * (c.value + c.off)));
   const double deviation = fabs(rise_of(&b->point)) / ROOT_12 + half_of(&b->point);
   const double off = deviation > 0 ? 0.5 * length[!to] * l->spread * deviation : 0;
   add_at_points(&l->factor[to], b, off, &h->point);
@@ -120,11 +120,11 @@ static void gather_link(hr2di_enclosing *e, const hr2di_enclosed_link *l) {
 /* Sums with their roundings. */
 static void finish(hr2di_lit_range *h, uint32_t terms) {
   const double margin =
-      (terms + (double)TERM) * DBL_EPSILON * fmax(h->mean.most, most_of(&h->point));
+      (terms + (double)TERM) * DBL_EPSILON * fmax(h->mean.upper, max_of(&h->point));
   for (int k = 0; k < 2; k++) add(&h->point.at[k], -margin, margin);
   add(&h->mean, -margin, margin);
   h->mean = narrower(h->mean, mean_of(&h->point));
-  h->mean.least = fmax(0, h->mean.least);
+  h->mean.lower = fmax(0, h->mean.lower);
 }
 
 static void add_background(const hr2di_enclosing *e, uint32_t leaf, size_t band,
@@ -133,23 +133,24 @@ static void add_background(const hr2di_enclosing *e, uint32_t leaf, size_t band,
   const hr2di_lit_range *rest = &e->row[leaf];
   if (!(light > 0)) return;
   for (int k = 0; k < 2; k++)
-    add(&h->point.at[k], rest->point.at[k].least * light, rest->point.at[k].most * light);
-  add(&h->mean, rest->mean.least * light, rest->mean.most * light);
+    add(&h->point.at[k], rest->point.at[k].lower * light, rest->point.at[k].upper * light);
+  add(&h->mean, rest->mean.lower * light, rest->mean.upper * light);
 }
 
 static hr2di_range reflected(hr2di_range h, double emission, double reflectance) {
-  const double margin = 2 * DBL_EPSILON * (emission + reflectance * h.most);
-  return (hr2di_range){emission + reflectance * h.least - margin,
-                       emission + reflectance * h.most + margin};
+  const double margin = 2 * DBL_EPSILON * (emission + reflectance * h.upper);
+  return (hr2di_range){emission + reflectance * h.lower - margin,
+                       emission + reflectance * h.upper + margin};
 }
 
 /* Of two lower lines that with the larger mean, likewise of two upper ones: a line through the
    better ends of both would not hold between them. */
 static void choose_lines(hr2di_strip *known, hr2di_strip now) {
   const hr2di_range old_mean = mean_of(known), mean = mean_of(&now);
-  for (int k = 0; k < 2 && mean.least > old_mean.least; k++)
-    known->at[k].least = now.at[k].least;
-  for (int k = 0; k < 2 && mean.most < old_mean.most; k++) known->at[k].most = now.at[k].most;
+  for (int k = 0; k < 2 && mean.lower > old_mean.lower; k++)
+    known->at[k].lower = now.at[k].lower;
+  for (int k = 0; k < 2 && mean.upper < old_mean.upper; k++)
+    known->at[k].upper = now.at[k].upper;
 }
 
 /* Returns what is not known of the leaf. */
@@ -166,7 +167,7 @@ static double take(hr2di_enclosing *e, uint32_t leaf, size_t band) {
   b->mean = narrower(b->mean, reflected(h->mean, emission, reflectance));
   b->mean = narrower(b->mean, mean_of(&b->point));
   return e->hierarchy->element[leaf].length *
-         (h->mean.most - h->mean.least + half_of(&b->point));
+         (h->mean.upper - h->mean.lower + half_of(&b->point));
 }
 
 static hr2d_status sweep(hr2di_enclosing *e, double *width) {
@@ -199,30 +200,30 @@ hr2d_status hr2di_enclosing_sweep(hr2di_enclosing *e) {
 }
 
 /* No B is above the largest E + ρ max(B, background). */
-double hr2di_enclosing_most(const hr2d_scene *scene, size_t band) {
+double hr2di_enclosing_max(const hr2d_scene *scene, size_t band) {
   double emission = 0, reflectance = 0;
   for (size_t k = 0; k < hr2di_scene_cell(scene); k++) {
     emission = fmax(emission, hr2d_scene_emission(scene, k, band));
     reflectance = fmax(reflectance, hr2d_scene_reflectance(scene, k, band));
   }
-  const double most = fmax(emission / (1 - reflectance),
-                           emission + reflectance * hr2d_scene_background(scene, band));
-  return most * (1 + 4 * DBL_EPSILON);
+  const double upper = fmax(emission / (1 - reflectance),
+                            emission + reflectance * hr2d_scene_background(scene, band));
+  return upper * (1 + 4 * DBL_EPSILON);
 }
 
-static hr2di_lit_range even(double most) {
-  const hr2di_range all = {0, most};
+static hr2di_lit_range even(double upper) {
+  const hr2di_range all = {0, upper};
   return (hr2di_lit_range){{{all, all}}, all};
 }
 
 /* The part of a strip on one half of its element. */
 static hr2di_lit_range half(const hr2di_strip *s, int right) {
   const hr2di_range mean = mean_of(s);
-  const double margin = DBL_EPSILON * most_of(s);
+  const double margin = DBL_EPSILON * max_of(s);
   hr2di_lit_range r = {.point = *s};
-  r.point.at[!right] = (hr2di_range){mean.least - margin, mean.most + margin};
+  r.point.at[!right] = (hr2di_range){mean.lower - margin, mean.upper + margin};
   r.mean = mean_of(&r.point);
-  r.mean = (hr2di_range){fmax(0, r.mean.least - margin), r.mean.most + margin};
+  r.mean = (hr2di_range){fmax(0, r.mean.lower - margin), r.mean.upper + margin};
   return r;
 }
 
@@ -231,7 +232,7 @@ static hr2di_lit_range half(const hr2di_strip *s, int right) {
 static void inherit(const hr2di_enclosing *e, hr2di_lit_range *now) {
   const hr2d_hierarchy *h = e->hierarchy;
   for (size_t b = 0; b < e->bands && !e->elements; b++) {
-    const hr2di_lit_range all = even(hr2di_enclosing_most(e->scene, b));
+    const hr2di_lit_range all = even(hr2di_enclosing_max(e->scene, b));
     for (size_t k = 0; k < e->scene->patches; k++)
       now[k * e->bands + b] = k < hr2di_scene_cell(e->scene) ? all : even(0);
   }
@@ -249,14 +250,14 @@ static void count_terms(hr2di_enclosing *e, const hr2di_enclosed_link *l) {
     const hr2di_range mean = mean_factor(l, k, length);
     hr2di_lit_range *row = &e->row[l->of[k]];
     for (int at = 0; at < 2; at++)
-      add(&row->point.at[at], l->factor[k].at[at].least, l->factor[k].at[at].most);
-    add(&row->mean, mean.least, mean.most);
+      add(&row->point.at[at], l->factor[k].at[at].lower, l->factor[k].at[at].upper);
+    add(&row->mean, mean.lower, mean.upper);
     e->terms[l->of[k]]++;
   }
 }
 
 static hr2di_range rest_of(hr2di_range row, double margin) {
-  return (hr2di_range){1 - row.most - margin, 1 - row.least + margin};
+  return (hr2di_range){1 - row.upper - margin, 1 - row.lower + margin};
 }
 
 /* What is left of 1; from 0 where it may be a back, or a patch that has no links because no
@@ -268,9 +269,9 @@ static void take_rest(const hr2di_enclosing *e, uint32_t leaf) {
   row->mean = rest_of(row->mean, margin);
   for (int k = 0; k < 2; k++) row->point.at[k] = rest_of(row->point.at[k], margin);
   if (e->scene->dark || (e->sees_backs && e->sees_backs[patch]) ||
-      !(mean_of(&row->point).least > 0))
-    row->point.at[0].least = row->point.at[1].least = 0;
-  if (e->scene->dark || (e->sees_backs && e->sees_backs[patch])) row->mean.least = 0;
+      !(mean_of(&row->point).lower > 0))
+    row->point.at[0].lower = row->point.at[1].lower = 0;
+  if (e->scene->dark || (e->sees_backs && e->sees_backs[patch])) row->mean.lower = 0;
   if (!hr2di_scene_lit(e->scene, patch)) *row = even(0);
 }
 

@@ -34,7 +34,7 @@ typedef struct hr2di_enclosing {
 int hr2di_enclosing_has(const hr2di_enclosing *e, uint32_t element);
 
 /* What no B of a band is above, without links. */
-double hr2di_enclosing_most(const hr2d_scene *scene, size_t band);
+double hr2di_enclosing_max(const hr2d_scene *scene, size_t band);
 
 /* Makes the ranges of all leaves from those of their ancestors, and at first from what is known
    without links.  After a refinement; `b` of the elements from before is kept.  HR2D_OK,

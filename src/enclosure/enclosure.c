@@ -15,7 +15,7 @@
 #include "mesh/admissibility.h"
 #include "oracle/built-in.h"
 #include "scene/scene-impl.h"
-#include "visibility/seen-backs.h"
+#include "visibility/back-visibility.h"
 
 /* Links that are made between two questions of the watch: some 1 µs each. */
 enum { SOME_LINKS = 256 };
@@ -50,7 +50,7 @@ static hr2d_status begin(encloser *all) {
   if (!status && !all->scale) status = HR2D_ENOMEM;
   if (status) return status;
   if (e->scene->parts.wanted)
-    return hr2di_seen_backs(e->scene, &e->alloc, 1, &e->sees_backs, e->watch);
+    return hr2di_back_visibility(e->scene, &e->alloc, 1, &e->sees_backs, e->watch);
   /* Without a plane nobody knows. */
   e->sees_backs = hr2di_alloc(&e->alloc, e->scene->patches, 1);
   if (e->sees_backs) memset(e->sees_backs, 1, e->scene->patches);
@@ -75,8 +75,8 @@ static hr2d_status make_links(hr2di_enclosing *e) {
     const size_t some = left < SOME_LINKS ? (size_t)left : SOME_LINKS;
     hr2di_enclosed_links_make(e->links, e->original, e->count, some, e->link + e->count);
     e->count += some;
-    e->watch->told.links = e->count;
-    e->watch->told.fraction = (double)e->count / (double)count;
+    e->watch->report.links = e->count;
+    e->watch->report.fraction = (double)e->count / (double)count;
     status = hr2di_watch_work(e->watch, 10 * some);
   }
   return status;
@@ -97,13 +97,13 @@ static hr2d_status refine(encloser *all) {
 
 /* Adds the mean over a leaf to that of its patch. */
 static void add_leaf(hr2di_range *mean, hr2di_range of, double part) {
-  mean->least += part * of.least;
-  mean->most += part * of.most;
+  mean->lower += part * of.lower;
+  mean->upper += part * of.upper;
 }
 
 static void narrow(hr2di_range *known, hr2di_range now, double margin) {
-  known->least = fmax(known->least, now.least * (1 - margin));
-  known->most = fmin(known->most, now.most * (1 + margin));
+  known->lower = fmax(known->lower, now.lower * (1 - margin));
+  known->upper = fmin(known->upper, now.upper * (1 + margin));
 }
 
 /* The means over patches; a sum of N numbers is off by N roundings of it. */
@@ -132,14 +132,14 @@ static hr2d_status take_means(encloser *all) {
 /* The largest distance of ends in a band, relative to the largest lower end. */
 static double gap_of(const hr2d_enclosure *to, const hr2di_range *range, size_t band,
                      double *scale) {
-  double most = 0, widest = 0;
+  double upper = 0, widest = 0;
   for (size_t k = 0; k < to->patches; k++) {
     const hr2di_range r = range[k * to->bands + band];
-    most = fmax(most, r.least);
-    widest = fmax(widest, r.most - r.least);
+    upper = fmax(upper, r.lower);
+    widest = fmax(widest, r.upper - r.lower);
   }
-  *scale = most;
-  return widest > 0 ? widest / most : 0;
+  *scale = upper;
+  return widest > 0 ? widest / upper : 0;
 }
 
 static void measure(encloser *all) {
@@ -150,7 +150,7 @@ static void measure(encloser *all) {
         fmax(gap_of(all->to, all->to->b, b, &of_b), gap_of(all->to, all->to->h, b, &of_h));
     /* Without any lower end all leaves count by what they may have. */
     all->scale[b] =
-        fmax(of_b, of_h) > 0 ? fmax(of_b, of_h) : hr2di_enclosing_most(all->e.scene, b);
+        fmax(of_b, of_h) > 0 ? fmax(of_b, of_h) : hr2di_enclosing_max(all->e.scene, b);
     if (gap <= all->options.gap) all->scale[b] = 0;
     all->account.gap = fmax(all->account.gap, gap);
   }

@@ -24,20 +24,19 @@ static void set_fields(const hr2di_estimator *e, double *field) {
 static double worst(const hr2di_estimator *e, const double *coarse, const double *fine) {
   const hr2di_transport *t = &e->eq.transport;
   const size_t bands = t->bands;
-  double most = 0;
+  double max = 0;
   for (size_t k = 0; k < e->values; k++) {
     const size_t patch = k / bands, b = k % bands, at = patch * (bands + 1);
     if (!hr2di_is_important(e->target, patch)) continue;
     const int closed = t->closed && t->closed[patch];
-    const double one = closed ? fine[at + bands] - coarse[at + bands] : 0;
+    const double share = closed ? fine[at + bands] - coarse[at + bands] : 0;
     const double power =
-        fine[at + b] - coarse[at + b] - one * hr2di_estimator_value(e, 0, patch, b);
+        fine[at + b] - coarse[at + b] - share * hr2di_estimator_value(e, 0, patch, b);
     const double h = fabs(power) / t->hierarchy->scene->patch[patch].length;
-    const double least = hr2di_estimator_least(e, 0, patch, b);
-    if (h > 0)
-      most = fmax(most, hr2d_scene_reflectance(t->hierarchy->scene, patch, b) * h / least);
+    const double min = hr2di_estimator_min(e, 0, patch, b);
+    if (h > 0) max = fmax(max, hr2d_scene_reflectance(t->hierarchy->scene, patch, b) * h / min);
   }
-  return most;
+  return max;
 }
 
 /* All shares call it, and get the same part. */

@@ -101,10 +101,10 @@ static void add_pair(const hr2di_transport *t, double off, const gather *g, uint
   const int closed = t->closed && t->closed[e->patch];
   for (size_t b = 0; b < t->bands; b++) {
     const double light = g->has_sky[i] ? g->levels->light[b] : 0;
-    const double other = fmax(g->levels->most[j * t->bands + b], light);
-    for (int told = 0; told < 2; told++) {
-      const double own = closed ? g->own[told][i * t->bands + b] : 0;
-      hr2di_shared_sums_add(g->sums, ((size_t)told * t->elements + i) * t->bands + b,
+    const double other = fmax(g->levels->max[j * t->bands + b], light);
+    for (int report = 0; report < 2; report++) {
+      const double own = closed ? g->own[report][i * t->bands + b] : 0;
+      hr2di_shared_sums_add(g->sums, ((size_t)report * t->elements + i) * t->bands + b,
                             off / e->length * fmax(other, own));
     }
   }
@@ -136,8 +136,8 @@ static void add_links(const hr2di_transport *t, const offsets *places, const gat
   for (uint64_t k = 0; k < t->links->store.count && !hr2di_watch_work(t->watch, 1); k++) {
     const hr2d_pair pair = hr2di_store_at(&t->links->store, k)->pair;
     const double off = link_off(t, k, places) * fabs(hr2di_linkset_weight(t->links, pair));
-    const uint32_t i = hr2di_ties_of(&t->ties, pair.first),
-                   j = hr2di_ties_of(&t->ties, pair.second);
+    const uint32_t i = hr2di_image_map_of(&t->image_map, pair.first),
+                   j = hr2di_image_map_of(&t->image_map, pair.second);
     add_pair(t, off, g, i, j);
     if (!t->links->directed) add_pair(t, off, g, j, i);
   }
@@ -188,7 +188,7 @@ hr2d_status hr2di_coordinates_add(const hr2di_transport *t, const hr2di_levels *
   hr2d_status status =
       hr2di_shared_sums_init(&sums, t->links->share, &t->alloc, all, 2 * values);
   const gather g = {levels,
-                    {levels->most, levels->own},
+                    {levels->max, levels->own},
                     hr2di_alloc_zero(&t->alloc, t->elements, 1),
                     {all, all ? all + values : NULL},
                     &sums};
@@ -198,9 +198,9 @@ hr2d_status hr2di_coordinates_add(const hr2di_transport *t, const hr2di_levels *
     find_places(t->hierarchy, &places, t->watch);
     status = add_all_links(t, &places, &g);
   }
-  for (int told = 0; told < 2 && !status; told++) {
-    lower(t, g.error[told]);
-    add_leaves(t, g.error[told], error[told]);
+  for (int report = 0; report < 2 && !status; report++) {
+    lower(t, g.error[report]);
+    add_leaves(t, g.error[report], error[report]);
   }
   hr2di_shared_sums_clear(&sums);
   hr2di_alloc_free(&t->alloc, places.offset);

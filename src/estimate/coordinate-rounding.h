@@ -7,7 +7,7 @@
 
 /* What is known of B. */
 typedef struct hr2di_levels {
-  const double *most;  /* |B| of elements at most, elements × bands */
+  const double *max;   /* |B| of elements at most, elements × bands */
   const double *own;   /* likewise what is left of it in H as it is told, see closure-mean.c */
   const double *light; /* radiosity of the background, per band */
 } hr2di_levels;

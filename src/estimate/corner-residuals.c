@@ -40,22 +40,22 @@ static hr2d_status add(hr2di_contacts *c, const hr2di_transport *t, const uint32
   return HR2D_OK;
 }
 
-static size_t most_for(const hr2d_scene *scene) {
+static size_t max_for(const hr2d_scene *scene) {
   return scene->patches > HR2DI_CHOICE_CONTACTS_PATCHES ? HR2DI_CHOICE_CONTACTS_LARGE
                                                         : HR2DI_CHOICE_CONTACTS;
 }
 
 uint64_t hr2di_contacts_points(const hr2d_linkset *links) {
   const hr2d_hierarchy *h = links->hierarchy;
-  const size_t most = most_for(h->scene);
+  const size_t max = max_for(h->scene);
   size_t contacts = 0;
-  for (uint64_t k = 0; k < links->store.count && contacts < most; k++) {
+  for (uint64_t k = 0; k < links->store.count && contacts < max; k++) {
     const hr2d_pair pair = hr2di_store_at(&links->store, k)->pair;
     const hr2d_element *i = &h->element[pair.first], *j = &h->element[pair.second];
     if (i->child || j->child) continue;
     contacts += (size_t)hr2di_point_same(i->b, j->a) + (size_t)hr2di_point_same(j->b, i->a);
   }
-  return 2 * (contacts < most ? contacts : most);
+  return 2 * (contacts < max ? contacts : max);
 }
 
 static int by_leaves(const void *left, const void *right) {
@@ -109,7 +109,7 @@ void hr2di_contacts_clear(hr2di_contacts *c) {
 
 /* The leaf of which another one is an image. */
 static uint32_t original(const hr2di_transport *t, uint32_t leaf) {
-  return t->ties.of ? t->ties.number[t->ties.of[t->leaf[leaf]]] : leaf;
+  return t->image_map.of ? t->image_map.number[t->image_map.of[t->leaf[leaf]]] : leaf;
 }
 
 /* A leaf may have contacts at both ends. */
@@ -138,7 +138,7 @@ static int by_key(const void *left, const void *right) {
 
 /* Chooses by the residuals that coefficients have at the vertex. */
 static void choose(hr2di_contacts *c, const hr2di_transport *t, const double *residual) {
-  const size_t most = most_for(t->hierarchy->scene);
+  const size_t max = max_for(t->hierarchy->scene);
   hr2di_basis basis;
   hr2di_basis_init(&basis, t->order);
   for (size_t k = 0; k < c->count; k++) {
@@ -150,8 +150,8 @@ static void choose(hr2di_contacts *c, const hr2di_transport *t, const double *re
             at->key, fabs(hr2di_basis_sum(&basis, side ? -1 : 1,
                                           residual + at->leaf[side] * t->width + b, t->bands)));
   }
-  if (c->count > most) qsort(c->contact, c->count, sizeof *c->contact, by_key);
-  c->gathered = c->count < most ? c->count : most;
+  if (c->count > max) qsort(c->contact, c->count, sizeof *c->contact, by_key);
+  c->gathered = c->count < max ? c->count : max;
 }
 
 /* Where a leaf begins or ends on its patch: 0 and 1 exactly at the ends of that. */
@@ -174,7 +174,7 @@ typedef struct leaf_end {
 
 static leaf_end end_of(const hr2di_contacts *c, const hr2di_transport *t, size_t k) {
   const uint32_t leaf = c->contact[k / 2].leaf[k % 2];
-  const int turned = t->ties.of && t->ties.odd[t->leaf[leaf]];
+  const int turned = t->image_map.of && t->image_map.odd[t->leaf[leaf]];
   return (leaf_end){original(t, leaf), k % 2 != (size_t)turned};
 }
 

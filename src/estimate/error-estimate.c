@@ -8,7 +8,7 @@
 
 #include "base/alloc.h"
 #include "estimate/cluster-residuals.h"
-#include "estimate/error-shares.h"
+#include "estimate/error-indicators.h"
 #include "estimate/estimator.h"
 #include "estimate/gap-residuals.h"
 #include "estimate/importance.h"
@@ -16,8 +16,8 @@
 #include "estimate/residual-series.h"
 #include "estimate/resolution.h"
 #include "estimate/rounding-bound.h"
-#include "estimate/safe-sum.h"
 #include "estimate/shadow-residuals.h"
+#include "estimate/unsigned-error.h"
 #include "scene/scene-impl.h"
 #include "solution/solution-impl.h"
 
@@ -37,7 +37,7 @@
 /* What errors count: those that coefficients show, those of a period that is cut off, and at
    most, those of points beside gaps, and roundings. */
 typedef struct factors {
-  double error, past, past_most, narrow, rounding;
+  double error, past, past_max, narrow, rounding;
 } factors;
 
 /* The largest error of an average of B or H, relative to the average as corrected by it, or to
@@ -53,11 +53,11 @@ static double worst_average(const hr2di_estimator *e, int irradiance, factors f)
       const double error = e->average[irradiance][at],
                    is = hr2di_estimator_value(e, irradiance, k, b);
       const double past = e->tail ? f.past * e->past[irradiance][at] : 0;
-      const double most = e->tail ? f.past_most * e->past_most[irradiance][at] : 0;
+      const double upper = e->tail ? f.past_max * e->past_max[irradiance][at] : 0;
       const double more = f.rounding > 0 ? f.rounding * fabs(e->rounding[irradiance][at]) : 0;
-      const double sum = fmax(f.error * fabs(error), past) + more + most;
-      const double least = f.rounding > 0 ? is - sum : is + error;
-      if (sum > 0) worst = fmax(worst, sum / fmax(least, floor));
+      const double sum = fmax(f.error * fabs(error), past) + more + upper;
+      const double lower = f.rounding > 0 ? is - sum : is + error;
+      if (sum > 0) worst = fmax(worst, sum / fmax(lower, floor));
     }
   }
   return worst;
@@ -71,8 +71,8 @@ static double worst_point(const hr2di_estimator *e, int irradiance, factors f) {
     const double error =
         fmax(f.error * e->point[irradiance][b], f.narrow * e->narrow[irradiance][b]);
     const double past = e->tail ? f.past * e->far[irradiance][b] : 0;
-    const double most = e->tail ? f.past_most * e->far_most[irradiance][b] : 0;
-    const double sum = fmax(error, past) + f.rounding * e->stray[irradiance][b] + most;
+    const double upper = e->tail ? f.past_max * e->far_max[irradiance][b] : 0;
+    const double sum = fmax(error, past) + f.rounding * e->stray[irradiance][b] + upper;
     if (sum > 0) worst = fmax(worst, sum / e->largest[irradiance][b]);
   }
   return worst;
@@ -114,13 +114,13 @@ static int reflects_light(const hr2di_estimator *e) {
 
 /* Estimates of averages, which are off by no less than `doubt`. */
 static void estimate_averages(const hr2di_estimator *e, hr2di_error_pair *errors) {
-  const double unknown = HUGE_VAL, of_h = reflects_light(e) ? e->doubt : 0;
+  const double unknown = HUGE_VAL, of_h = reflects_light(e) ? e->level_uncertainty : 0;
   const factors all = {.error = 1, .past = 1}, past = {.past = 1};
   for (int h = 0; h < 2 && e->tail; h++) {
     errors->cut_off[0] = fmax(errors->cut_off[0], worst_average(e, h, past));
     errors->cut_off[1] = fmax(errors->cut_off[1], worst_point(e, h, past));
   }
-  errors->average = (hr2d_error){fmax(worst_average(e, 0, all), e->doubt), unknown};
+  errors->average = (hr2d_error){fmax(worst_average(e, 0, all), e->level_uncertainty), unknown};
   errors->irradiance = (hr2d_error){fmax(worst_average(e, 1, all), of_h), unknown};
   errors->sup = errors->irradiance_sup = (hr2d_error){unknown, unknown};
 }
@@ -141,7 +141,7 @@ static hr2d_status measure_rest(hr2di_estimator *e, hr2di_error_pair *errors) {
   const int reflects = reflects_light(e);
   hr2d_status status = hr2di_shadow_residuals(e);
   if (!status) status = hr2di_gap_residuals(e);
-  if (!status && reflects) status = hr2di_safe_sum(e);
+  if (!status && reflects) status = hr2di_unsigned_error(e);
   if (status) return status;
   status = hr2di_rounding_bound(e, reflects);
   if (status) return status;
@@ -149,35 +149,35 @@ static hr2d_status measure_rest(hr2di_estimator *e, hr2di_error_pair *errors) {
   for (int h = 0; h < 2; h++) {
     const factors off = {.rounding = 1};
     const double average_off = worst_average(e, h, off) + level;
-    errors->rounding[0] = fmax(errors->rounding[0], fmax(average_off, e->doubt));
+    errors->rounding[0] = fmax(errors->rounding[0], fmax(average_off, e->level_uncertainty));
     errors->rounding[1] =
-        fmax(errors->rounding[1], fmax(worst_point(e, h, off) + level, e->doubt));
+        fmax(errors->rounding[1], fmax(worst_point(e, h, off) + level, e->level_uncertainty));
   }
   hr2d_error *const average[] = {&errors->average, &errors->irradiance};
   hr2d_error *const sup[] = {&errors->sup, &errors->irradiance_sup};
   for (int h = 0; h < 2; h++) {
     const double blind = h == 1 || reflects ? e->blind : 0; /* without light B is E */
-    const double doubt = h == 0 || reflects ? e->doubt : 0;
+    const double doubt = h == 0 || reflects ? e->level_uncertainty : 0;
     const factors all = {.error = 1, .past = 1, .narrow = 1},
-                  average_most = {.error = e->margin, .past_most = 1, .rounding = 1},
-                  most = {.error = fmax(e->margin, POINTS),
-                          .past_most = 1,
-                          .narrow = POINTS,
-                          .rounding = 1};
+                  average_max = {.error = e->margin, .past_max = 1, .rounding = 1},
+                  upper = {.error = fmax(e->margin, POINTS),
+                           .past_max = 1,
+                           .narrow = POINTS,
+                           .rounding = 1};
     const double seen = average[h]->estimate, likely = seen + by_chance(e, seen, SCATTER, h);
     *average[h] =
         bounded(hypot(likely, BLIND_LIKELY * blind),
-                worst_average(e, h, average_most) + e->margin * by_chance(e, seen, 1, h) +
+                worst_average(e, h, average_max) + e->margin * by_chance(e, seen, 1, h) +
                     signless(e, h) + level + BLIND * blind);
     *sup[h] = bounded(hypot(fmax(worst_point(e, h, all), doubt), BLIND_LIKELY * blind),
-                      worst_point(e, h, most) + level + BLIND * blind);
+                      worst_point(e, h, upper) + level + BLIND * blind);
   }
   return hr2di_transport_status(&eq->transport);
 }
 
 static double margin_of(const hr2di_resolution *f) {
   const double ratio = (double)f->order / (f->order + HR2DI_FINER_ORDERS);
-  if (!f->hidden) return MARGIN;
+  if (!f->has_events) return MARGIN;
   return MARGIN_OF_VIEWS / (1 - ratio * ratio * ratio);
 }
 
@@ -200,7 +200,7 @@ static hr2d_status find_shares(hr2di_estimator *e, hr2di_graded *answer,
   if (!answer->depth) return HR2D_ENOMEM;
   hr2d_share *share = answer->links->share;
   const hr2d_status status =
-      hr2di_share_agree(share, hr2di_error_shares(e, fineness->aim, worst, answer->depth));
+      hr2di_share_agree(share, hr2di_error_indicators(e, fineness->aim, worst, answer->depth));
   if (!status) return HR2D_OK;
   if (status != HR2D_ENOMEM) hr2di_share_begin(share);
   hr2di_alloc_free(alloc, answer->depth);
@@ -216,11 +216,12 @@ static hr2d_status run(hr2di_graded *answer, const hr2di_resolution *fineness,
   hr2di_clusters *coarser = answer->links->roots.clusters;
   hr2d_status status = hr2di_estimator_init(&e, answer, finer, target);
   e.margin = margin_of(fineness);
-  e.blind = fineness->hidden ? fineness->aim : 0;
+  e.blind = fineness->has_events ? fineness->aim : 0;
   if (!status) status = measure_averages(&e, errors);
-  const int shares = fineness->shares && !answer->bent;
+  const int shares = fineness->a_posteriori && !answer->unresolved_jump;
   const double seen = status ? 0 : worst_of(errors);
-  answer->unbounded = !status && shares && fineness->hasty && is_too_large(errors, fineness);
+  answer->unbounded =
+      !status && shares && fineness->skip_bound && is_too_large(errors, fineness);
   if (!status && !answer->unbounded) status = measure_rest(&e, errors);
   const int too_large = !status && is_too_large(errors, fineness), shared = too_large && shares;
   if (!status && coarser && too_large)
@@ -236,8 +237,10 @@ hr2d_status hr2di_error_estimate(hr2di_graded *answer, const hr2di_resolution *f
   const hr2di_resolution finer = hr2di_resolution_finer(fineness);
   hr2d_linkset *links = answer->links;
   hr2di_roots roots = links->roots;
-  const hr2di_equation_how how = {
-      .order = finer.order, .single = finer.single, .roots = &roots, .looks = finer.looks};
+  const hr2di_equation_how how = {.order = finer.order,
+                                  .single = finer.single,
+                                  .roots = &roots,
+                                  .beam_cache = finer.beam_cache};
   *errors = (hr2di_error_pair){0};
   hr2d_status status = HR2D_OK;
   if (roots.clusters) {

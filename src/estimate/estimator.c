@@ -16,8 +16,8 @@ int hr2di_estimator_stopped(const hr2di_estimator *e) {
   return e->eq.transport.failed || hr2di_watch_status(e->eq.transport.watch);
 }
 
-double hr2di_estimator_most(const hr2di_estimator *e, const double *field, size_t leaf,
-                            size_t band) {
+double hr2di_estimator_max(const hr2di_estimator *e, const double *field, size_t leaf,
+                           size_t band) {
   const hr2di_transport *t = &e->eq.transport;
   const double *at = field + leaf * t->width + band;
   hr2di_watch_work(t->watch, 1 + e->rule.points * t->order / 32);
@@ -44,7 +44,7 @@ void hr2di_estimator_off(hr2di_estimator *e, double *const point[2], size_t patc
 
 double hr2di_estimator_sky(const hr2di_estimator *e, size_t m) {
   const hr2di_transport *t = &e->eq.transport;
-  return m < t->bands ? ldexp(hr2di_sky_most(t->hierarchy->scene, m), -e->eq.exponent[m]) : 0;
+  return m < t->bands ? ldexp(hr2di_sky_max(t->hierarchy->scene, m), -e->eq.exponent[m]) : 0;
 }
 
 void hr2di_estimator_averages(hr2di_estimator *e, const double *field, double *average) {
@@ -54,22 +54,22 @@ void hr2di_estimator_averages(hr2di_estimator *e, const double *field, double *a
     for (size_t b = 0; b < t->bands; b++) average[k * t->bands + b] = t->up[k * t->width + b];
 }
 
-void hr2di_estimator_lift(const hr2di_estimator *e, double *most) {
+void hr2di_estimator_lift(const hr2di_estimator *e, double *upper) {
   const hr2di_transport *t = &e->eq.transport;
   const hr2d_element *element = t->hierarchy->element;
   for (size_t k = t->elements; k-- > 0;)
     for (size_t b = 0; b < t->bands && element[k].child; b++) {
-      const double *child = most + element[k].child * t->bands + b;
-      most[k * t->bands + b] = fmax(child[0], child[t->bands]);
+      const double *child = upper + element[k].child * t->bands + b;
+      upper[k * t->bands + b] = fmax(child[0], child[t->bands]);
     }
 }
 
-void hr2di_estimator_set_most(hr2di_estimator *e, const double *field) {
+void hr2di_estimator_set_max(hr2di_estimator *e, const double *field) {
   const hr2di_transport *t = &e->eq.transport;
   for (size_t k = 0; k < t->leaves && !hr2di_estimator_stopped(e); k++)
     for (size_t b = 0; b < t->bands; b++)
-      e->most[t->leaf[k] * t->bands + b] = hr2di_estimator_most(e, field, k, b);
-  hr2di_estimator_lift(e, e->most);
+      e->max[t->leaf[k] * t->bands + b] = hr2di_estimator_max(e, field, k, b);
+  hr2di_estimator_lift(e, e->max);
 }
 
 static void scale(const hr2di_estimator *e, const hr2di_equation *eq, double *field, int sign) {
@@ -122,8 +122,8 @@ double hr2di_estimator_value(const hr2di_estimator *e, int irradiance, size_t pa
   return fabs(ldexp(value, -e->eq.exponent[band]));
 }
 
-double hr2di_estimator_least(const hr2di_estimator *e, int irradiance, size_t patch,
-                             size_t band) {
+double hr2di_estimator_min(const hr2di_estimator *e, int irradiance, size_t patch,
+                           size_t band) {
   return fmax(hr2di_estimator_value(e, irradiance, patch, band),
               e->floor[(size_t)irradiance * e->eq.transport.bands + band]);
 }
@@ -135,9 +135,9 @@ static double contrast(const hr2di_estimator *e, int irradiance) {
   for (size_t b = 0; b < bands; b++) {
     double min = HUGE_VAL, max = 0;
     for (size_t k = 0; k < patches; k++) {
-      const double least = hr2di_estimator_least(e, irradiance, k, b);
-      if (least > 0 && hr2di_is_important(e->target, k)) min = fmin(min, least);
-      max = fmax(max, least);
+      const double lower = hr2di_estimator_min(e, irradiance, k, b);
+      if (lower > 0 && hr2di_is_important(e->target, k)) min = fmin(min, lower);
+      max = fmax(max, lower);
     }
     if (max > 0) ratio = fmin(ratio, min / max);
   }
@@ -151,9 +151,9 @@ hr2d_status hr2di_estimator_solve_part(hr2di_estimator *e, double part,
                                        hr2di_estimator_aim aim) {
   const double dark = fmin(contrast(e, 0), contrast(e, 1));
   e->eq.enough = e->part.enough =
-      (hr2di_enough){.part = TO_AND_FRO * part, .weight = e->weight, .summed = aim};
+      (hr2di_stopping_test){.part = TO_AND_FRO * part, .weight = e->weight, .summed = aim};
   const hr2d_status status = hr2di_estimator_solve(e, fmax(part * dark, 1e-14));
-  e->eq.enough = e->part.enough = (hr2di_enough){0};
+  e->eq.enough = e->part.enough = (hr2di_stopping_test){0};
   return status;
 }
 
@@ -164,9 +164,9 @@ static void set_weights(hr2di_estimator *e) {
     for (size_t b = 0; b < t->bands; b++) {
       const size_t patch = t->hierarchy->element[t->leaf[leaf]].patch;
       const double rho = hr2di_estimator_rho(e, leaf, b);
-      const double least = fmin(hr2di_estimator_least(e, 0, patch, b),
-                                rho * hr2di_estimator_least(e, 1, patch, b));
-      e->weight[leaf * t->bands + b] = least > 0 ? 1 / least : 0;
+      const double lower =
+          fmin(hr2di_estimator_min(e, 0, patch, b), rho * hr2di_estimator_min(e, 1, patch, b));
+      e->weight[leaf * t->bands + b] = lower > 0 ? 1 / lower : 0;
     }
 }
 
@@ -201,7 +201,7 @@ static hr2d_status reserve(hr2di_estimator *e, const hr2d_allocator *alloc) {
     e->average[h] = next;
     e->rounding[h] = next + e->values;
   }
-  e->most = next;
+  e->max = next;
   e->own = next + t->elements * t->bands;
   e->off[0] = e->own + t->elements * t->bands;
   e->off[1] = e->off[0] + rows;
@@ -221,9 +221,9 @@ static hr2d_status reserve(hr2di_estimator *e, const hr2d_allocator *alloc) {
   next = e->tail + field;
   for (int h = 0; h < 2; h++, next += 2 * (e->values + t->bands)) {
     e->past[h] = next;
-    e->past_most[h] = next + e->values;
-    e->far[h] = e->past_most[h] + e->values;
-    e->far_most[h] = e->far[h] + t->bands;
+    e->past_max[h] = next + e->values;
+    e->far[h] = e->past_max[h] + e->values;
+    e->far_max[h] = e->far[h] + t->bands;
   }
   return HR2D_OK;
 }
@@ -236,7 +236,7 @@ hr2d_status hr2di_estimator_init(hr2di_estimator *e, const hr2di_graded *answer,
   options.progress_ctx = target->progress_ctx;
   *e = (hr2di_estimator){.coarse = answer->solution,
                          .target = target,
-                         .bent = answer->bent,
+                         .unresolved_jump = answer->unresolved_jump,
                          .exponent = answer->survey.exponent,
                          .contacts.alloc = answer->links->alloc};
   hr2d_status status = hr2di_equation_init(&e->eq, answer->links,
@@ -250,7 +250,7 @@ hr2d_status hr2di_estimator_init(hr2di_estimator *e, const hr2di_graded *answer,
   hr2di_rule_init(&e->rule, e->eq.transport.order + 2);
   set_floors(e);
   set_weights(e);
-  e->eq.enough = (hr2di_enough){0};
+  e->eq.enough = (hr2di_stopping_test){0};
   return HR2D_OK;
 }
 

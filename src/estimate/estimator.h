@@ -7,7 +7,7 @@
 #include "base/legendre.h"
 #include "estimate/corner-residuals.h"
 #include "estimate/graded-solve.h"
-#include "solve/equation-part.h"
+#include "solve/reduced-equation.h"
 
 /* What roundings may be, relative to the largest value. */
 #define HR2DI_ESTIMATOR_ROUNDING (16 * DBL_EPSILON)
@@ -18,31 +18,31 @@ typedef struct hr2di_estimator {
   int whole;           /* the part does not suffice */
   const hr2d_solution *coarse;
   const hr2d_target *target;
-  const double *bent; /* see hr2di_graded */
-  double exponent;    /* γ, the least of the corners */
-  double margin;      /* of bounds over estimates */
-  double blind;       /* the aim, where events inside elements may hide errors; else 0 */
+  const double *unresolved_jump; /* see hr2di_graded */
+  double exponent;               /* γ, the least of the corners */
+  double margin;                 /* of bounds over estimates */
+  double blind; /* the aim, where events inside elements may hide errors; else 0 */
   hr2di_contacts contacts;
   hr2di_basis basis;
   hr2di_rule rule;
   double *space;
-  double doubt;     /* of the levels of components, see energy-balance.h */
-  size_t values;    /* patches × bands */
-  double *kept;     /* the field of B_h */
-  double *rest;     /* of B_h less the level of closed components */
-  double *error;    /* B − B_h */
-  double *residual; /* r */
-  double *tail;     /* what a check of the extrapolation over a period leaves of H; NULL
-                       without one, as the next ones */
-  double *past[2];  /* patches × bands: what may be missing of averages of B and H, with all
-                       reflections, */
-  double *past_most[2]; /* and that at most */
-  double *far[2];       /* per band: the same of B and H at points, */
-  double *far_most[2];  /* and that at most */
-  double *average[2];   /* patches × bands: errors of averages, of B and of H */
-  double *rounding[2];  /* likewise what roundings may be */
-  double *most;         /* elements × bands: |field| at most */
-  double *own;          /* likewise: what of |B| roundings of H on the element itself are of */
+  double level_uncertainty; /* of the levels of components, see energy-balance.h */
+  size_t values;            /* patches × bands */
+  double *kept;             /* the field of B_h */
+  double *rest;             /* of B_h less the level of closed components */
+  double *error;            /* B − B_h */
+  double *residual;         /* r */
+  double *tail;             /* what a check of the extrapolation over a period leaves of H; NULL
+                               without one, as the next ones */
+  double *past[2];     /* patches × bands: what may be missing of averages of B and H, with all
+                          reflections, */
+  double *past_max[2]; /* and that at most */
+  double *far[2];      /* per band: the same of B and H at points, */
+  double *far_max[2];  /* and that at most */
+  double *average[2];  /* patches × bands: errors of averages, of B and of H */
+  double *rounding[2]; /* likewise what roundings may be */
+  double *max;         /* elements × bands: |field| at most */
+  double *own;         /* likewise: what of |B| roundings of H on the element itself are of */
   double *off[2];     /* leaves × bands: what roundings may do to H, as B has it and as told */
   double *floor;      /* 2 × bands, of B and of H: no average counts as less */
   double *safe;       /* likewise: the worst error of an average without signs, */
@@ -59,8 +59,8 @@ typedef struct hr2di_estimator {
    is reflected twice: the part takes that on.  With two of seven what is left does not shrink
    where rooms are joined by doors, with three it does. */
 static inline size_t hr2di_estimator_part_order(size_t order) {
-  const size_t least = order < 6 ? 2 : 3;
-  return order / 3 > least ? order / 3 : least;
+  const size_t min = order < 6 ? 2 : 3;
+  return order / 3 > min ? order / 3 : min;
 }
 
 /* Makes an estimator of a solved answer, with the finer operator on its trees and links.  The
@@ -77,14 +77,14 @@ double hr2di_estimator_rounding(const hr2di_estimator *e);
 int hr2di_estimator_stopped(const hr2di_estimator *e);
 
 /* The largest |value| of a field on a leaf, in a band. */
-double hr2di_estimator_most(const hr2di_estimator *e, const double *field, size_t leaf,
-                            size_t band);
+double hr2di_estimator_max(const hr2di_estimator *e, const double *field, size_t leaf,
+                           size_t band);
 
-/* Sets e->most to the largest |field| on each element. */
-void hr2di_estimator_set_most(hr2di_estimator *e, const double *field);
+/* Sets e->max to the largest |field| on each element. */
+void hr2di_estimator_set_max(hr2di_estimator *e, const double *field);
 
 /* Lifts values of leaves, in an array of elements × bands, to all elements as the largest. */
-void hr2di_estimator_lift(const hr2di_estimator *e, double *most);
+void hr2di_estimator_lift(const hr2di_estimator *e, double *max);
 
 /* ρ of the patch of a leaf. */
 double hr2di_estimator_rho(const hr2di_estimator *e, size_t leaf, size_t band);
@@ -120,7 +120,6 @@ double hr2di_estimator_value(const hr2di_estimator *e, int irradiance, size_t pa
 
 /* The value that the error of an average is relative to: the average, but no less than the
    floor. */
-double hr2di_estimator_least(const hr2di_estimator *e, int irradiance, size_t patch,
-                             size_t band);
+double hr2di_estimator_min(const hr2di_estimator *e, int irradiance, size_t patch, size_t band);
 
 #endif

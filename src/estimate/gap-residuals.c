@@ -80,7 +80,7 @@ static int is_near(const hr2d_element *e, hr2d_point v) {
 /* The largest B_h on the two leaves of a gap. */
 static double brightness(const hr2di_estimator *e, const gap *g, size_t band) {
   const size_t bands = e->eq.transport.bands;
-  return fmax(e->most[g->leaf[0] * bands + band], e->most[g->leaf[1] * bands + band]);
+  return fmax(e->max[g->leaf[0] * bands + band], e->max[g->leaf[1] * bands + band]);
 }
 
 /* The gap between leaf i and an end v of the patch of leaf j. */
@@ -220,7 +220,7 @@ static hr2d_status find_all(hr2di_estimator *e, gaps *all) {
   const hr2di_transport *t = &e->eq.transport;
   const hr2d_element *element = t->hierarchy->element;
   hr2d_status status = HR2D_OK;
-  hr2di_estimator_set_most(e, e->kept);
+  hr2di_estimator_set_max(e, e->kept);
   for (uint64_t k = 0; k < t->links->store.count && !status; k++) {
     if (t->order > 1 && t->links->blocks.distant[k]) continue;
     const hr2d_pair pair = hr2di_store_at(&t->links->store, k)->pair;
@@ -235,16 +235,16 @@ static hr2d_status find_all(hr2di_estimator *e, gaps *all) {
 
 /* The places beside one side of a gap; the number of them. */
 static size_t list_places(const hr2di_estimator *e, const gap *g, int other, hr2di_place *to) {
-  const hr2di_ties *ties = &e->eq.transport.ties;
+  const hr2di_image_map *image_map = &e->eq.transport.image_map;
   const uint32_t beside = other ? g->end / 2 : g->over;
   const double from = other ? g->end % 2 : fmin(fmax(g->at, 0), 1);
   const double step = g->distance / e->eq.transport.hierarchy->scene->patch[beside].length;
-  const int turned = ties->of && ties->odd[beside];
+  const int turned = image_map->of && image_map->odd[beside];
   size_t count = 0;
   for (size_t k = 0; k < PLACES; k++) {
     const double along = from + place[k] * step, at = turned ? 1 - along : along;
     if (at >= 0 && at <= 1) /* not where the patch is dust */
-      to[count++] = (hr2di_place){hr2di_ties_of(ties, beside), at};
+      to[count++] = (hr2di_place){hr2di_image_map_of(image_map, beside), at};
   }
   return count;
 }
@@ -321,14 +321,13 @@ static void add_unknown(hr2di_estimator *e, const gap *g) {
 
 hr2d_status hr2di_gap_residuals(hr2di_estimator *e) {
   const hr2di_transport *t = &e->eq.transport;
-  const size_t most = t->hierarchy->scene->patches > HR2DI_CHOICE_CONTACTS_PATCHES
-                          ? HR2DI_CHOICE_GAPS_LARGE
-                          : HR2DI_CHOICE_GAPS;
+  const size_t max = t->hierarchy->scene->patches > HR2DI_CHOICE_CONTACTS_PATCHES
+                         ? HR2DI_CHOICE_GAPS_LARGE
+                         : HR2DI_CHOICE_GAPS;
   gaps all = {0};
   hr2d_status status = find_all(e, &all);
-  if (!status && all.count > 0)
-    status = gather(e, all.gap, all.count < most ? all.count : most);
-  if (all.count > most && !status) add_unknown(e, &all.gap[most]);
+  if (!status && all.count > 0) status = gather(e, all.gap, all.count < max ? all.count : max);
+  if (all.count > max && !status) add_unknown(e, &all.gap[max]);
   hr2di_alloc_free(&t->alloc, all.gap);
   return status ? status : hr2di_watch_status(t->watch);
 }

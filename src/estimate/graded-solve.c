@@ -10,9 +10,9 @@
 #include "hierarchy/image-trees.h"
 #include "links/linkset-impl.h"
 #include "mesh/admissibility.h"
-#include "mesh/divided-links.h"
-#include "mesh/halved-leaves.h"
-#include "mesh/row-deal.h"
+#include "mesh/refine-marked.h"
+#include "mesh/reuse-links.h"
+#include "mesh/row-partition.h"
 #include "refine/refine-how.h"
 #include "scene/scene-impl.h"
 #include "solution/solution-impl.h"
@@ -36,16 +36,16 @@ static hr2d_status find_events(hr2di_events *events, const hr2d_hierarchy *h,
 static hr2d_status carry_kinks(hr2di_graded *a, size_t elements, hr2di_watch *watch) {
   const hr2d_hierarchy *h = a->hierarchy;
   const size_t bands = h->scene->bands;
-  if (!a->bent || !h->scene->symmetry.motion) return HR2D_OK;
+  if (!a->unresolved_jump || !h->scene->symmetry.motion) return HR2D_OK;
   double *bent = hr2di_alloc_zero(&h->alloc, h->elements, bands * sizeof *bent);
   uint32_t *of = hr2di_alloc(&h->alloc, h->elements, sizeof *of);
   hr2d_status status = bent && of ? hr2di_image_trees_map(h, of, watch) : HR2D_ENOMEM;
   for (size_t k = 0; k < h->elements && !status; k++)
     for (size_t b = 0; b < bands && of[k] < elements; b++)
-      bent[k * bands + b] = a->bent[of[k] * bands + b];
+      bent[k * bands + b] = a->unresolved_jump[of[k] * bands + b];
   hr2di_alloc_free(&h->alloc, of);
-  hr2di_alloc_free(&h->alloc, status ? bent : a->bent);
-  if (!status) a->bent = bent;
+  hr2di_alloc_free(&h->alloc, status ? bent : a->unresolved_jump);
+  if (!status) a->unresolved_jump = bent;
   return status;
 }
 
@@ -66,11 +66,11 @@ static hr2d_status grade(hr2di_graded *a, const hr2di_resolution *fineness,
   hr2d_status status = find_events(&events, h, fineness->generations, target->share, &watch);
   const int chosen = fineness->kinks > 0 && fineness->lights && events.count > 0;
   const hr2di_grading grading = {.target = fineness->target,
-                                 .looks = fineness->looks,
+                                 .beam_cache = fineness->beam_cache,
                                  .norm = fineness->norm,
                                  .order = fineness->order,
                                  .corner_levels = fineness->corner_levels,
-                                 .flat = fineness->flat,
+                                 .no_corner_grading = fineness->no_corner_grading,
                                  .distance = fineness->distance,
                                  .events = chosen ? NULL : &events,
                                  .max_elements = target->max_elements,
@@ -78,8 +78,9 @@ static hr2d_status grade(hr2di_graded *a, const hr2di_resolution *fineness,
                                  .threads = target->threads};
   if (!status) status = hr2di_grading_apply(h, &grading, &a->survey);
   if (!status && chosen)
-    status = hr2di_kinks_cut(h, &events, fineness->lights, fineness->kinks,
-                             target->max_elements, target->threads, &watch, &a->bent);
+    status =
+        hr2di_events_select(h, &events, fineness->lights, fineness->kinks, target->max_elements,
+                            target->threads, &watch, &a->unresolved_jump);
   if (!status) status = divide_images(a, &watch);
   a->events = events.count;
   hr2di_events_clear(&events);
@@ -118,12 +119,12 @@ static hr2d_status link_elements(hr2di_graded *a, const hr2di_graded *coarse,
   if (status) return status;
   status = find_roots(a->links, coarse, fineness, target);
   if (!status && options.share && !a->pieces.rows)
-    status = hr2di_row_deal(&a->pieces, a->links, fineness->looks, &options);
+    status = hr2di_row_partition(&a->pieces, a->links, fineness->beam_cache, &options);
   options.rows = a->pieces.rows;
   const hr2di_refine_how how = {.pieces = options.share ? &a->pieces : NULL,
-                                .looks = fineness->looks};
+                                .beam_cache = fineness->beam_cache};
   if (!status)
-    status = coarse ? hr2di_divided_links(a->links, coarse->links, &how, &options)
+    status = coarse ? hr2di_reuse_links(a->links, coarse->links, &how, &options)
                     : hr2di_refine(a->links, &how, &options);
   return status;
 }
@@ -154,24 +155,24 @@ static double field_bytes(const hr2di_graded *a, const hr2di_resolution *finenes
 
 static hr2d_status check_bytes(const hr2di_graded *a, const hr2di_resolution *fineness,
                                const hr2d_target *target) {
-  const uint64_t most = target->max_bytes;
-  if (!most) return HR2D_OK;
+  const uint64_t max = target->max_bytes;
+  if (!max) return HR2D_OK;
   const double held = (double)hr2di_graded_bytes(a);
   const double blocks = (double)hr2d_linkset_size(a->links) *
                         (double)hr2di_graded_block_bytes(fineness, target->no_error);
   const double fields = field_bytes(a, fineness, target->no_error);
-  if (held + blocks + fields <= (double)most) return HR2D_OK;
+  if (held + blocks + fields <= (double)max) return HR2D_OK;
   return hr2di_message_fail(&a->links->message, HR2D_EMAX_BYTES,
                             "of %llu bytes %.3g are needed for elements and links, %.3g for "
                             "blocks, %.3g for fields of %zu bands",
-                            (unsigned long long)most, held, blocks, fields,
+                            (unsigned long long)max, held, blocks, fields,
                             a->hierarchy->scene->bands);
 }
 
 /* Where nothing is divided nobody has looked whether the patches themselves are too many. */
 static hr2d_status check_elements(const hr2di_graded *a, const hr2d_target *target) {
-  const uint64_t most = target->max_elements;
-  return most && a->hierarchy->elements > most ? HR2D_EMAX_ELEMENTS : HR2D_OK;
+  const uint64_t max = target->max_elements;
+  return max && a->hierarchy->elements > max ? HR2D_EMAX_ELEMENTS : HR2D_OK;
 }
 
 static hr2d_status explain(const hr2di_graded *a, hr2d_status status, hr2di_message *message) {
@@ -197,10 +198,10 @@ hr2d_status hr2di_graded_refine(hr2di_graded *a, const hr2d_scene *scene,
 
 static hr2d_status find_uneven(const hr2di_graded *a, hr2d_share *share, int *uneven) {
   const double own = (double)a->links->store.count;
-  double most = own, all = own;
-  hr2d_status status = hr2di_share_combine(share, HR2D_OK, HR2D_COMBINE_MOST, &most, 1);
+  double max = own, all = own;
+  hr2d_status status = hr2di_share_combine(share, HR2D_OK, HR2D_COMBINE_MOST, &max, 1);
   if (!status) status = hr2di_share_combine(share, HR2D_OK, HR2D_COMBINE_SUM, &all, 1);
-  *uneven = share && most * share->count > HR2DI_CHOICE_UNEVEN * all;
+  *uneven = share && max * share->count > HR2DI_CHOICE_UNEVEN * all;
   return status;
 }
 
@@ -236,7 +237,7 @@ hr2d_status hr2di_graded_divide(hr2di_graded *a, const hr2di_graded *coarse,
   *a = (hr2di_graded){.survey = coarse->survey, .events = coarse->events};
   hr2di_scene_watch(coarse->hierarchy->scene, &watch, target->progress, target->progress_ctx,
                     "refine");
-  hr2d_status status = hr2di_halved_leaves(coarse->hierarchy, coarse->depth,
+  hr2d_status status = hr2di_refine_marked(coarse->hierarchy, coarse->depth,
                                            target->max_elements, &watch, &a->hierarchy);
   if (!status) a->hierarchy->order = fineness->order;
   if (!status) status = divide_images(a, &watch);
@@ -258,7 +259,7 @@ hr2d_status hr2di_graded_solve(hr2di_graded *a, const hr2di_resolution *fineness
   const hr2di_equation_how how = {
       .block_order = target->no_error ? 0 : hr2di_resolution_finer(fineness).order,
       .single = fineness->single,
-      .looks = fineness->looks,
+      .beam_cache = fineness->beam_cache,
       .enough = {.part = fineness->relative, .floor = fineness->floor},
       .start = a->start};
   const hr2d_status status = hr2di_solve(a->links, &how, &options, &a->solution);
@@ -272,7 +273,7 @@ hr2d_status hr2di_graded_solve(hr2di_graded *a, const hr2di_resolution *fineness
 }
 
 void hr2di_graded_clear(hr2di_graded *a) {
-  if (a->hierarchy) hr2di_alloc_free(&a->hierarchy->alloc, a->bent);
+  if (a->hierarchy) hr2di_alloc_free(&a->hierarchy->alloc, a->unresolved_jump);
   if (a->hierarchy) hr2di_alloc_free(&a->hierarchy->alloc, a->depth);
   if (a->hierarchy) hr2di_row_pieces_clear(&a->pieces, &a->hierarchy->alloc);
   hr2d_solution_destroy(a->solution);

@@ -9,7 +9,7 @@
 #include "base/message.h"
 #include "estimate/resolution.h"
 #include "links/row-pieces.h"
-#include "mesh/kinks.h"
+#include "mesh/event-selection.h"
 #include "mesh/mesh-grading.h"
 
 typedef struct hr2di_graded {
@@ -18,7 +18,8 @@ typedef struct hr2di_graded {
   const hr2d_solution *start; /* of the elements that were divided; NULL: none */
   hr2d_solution *solution;    /* NULL until solved */
   hr2di_survey survey;
-  double *bent;         /* see hr2di_kinks_cut(); NULL: no event is left inside an element */
+  double *
+      unresolved_jump; /* see hr2di_events_select(); NULL: no event is left inside an element */
   unsigned char *depth; /* per element: how often a leaf is to be halved so that the aim is
                            reached; NULL: unknown */
   int unbounded;        /* the error is too large, and has got no bound */

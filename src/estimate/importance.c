@@ -29,9 +29,9 @@ int hr2di_is_important(const hr2d_target *target, size_t patch) {
 }
 
 /* For each patch and band, 1/(A·average) of B and of H where the patch counts, otherwise 0;
-   times the largest average B of the band, `most`, so that it is a moderate number over A. */
+   times the largest average B of the band, `max`, so that it is a moderate number over A. */
 typedef struct wanted {
-  double *most; /* bands */
+  double *max;  /* bands */
   double *of_b; /* patches × bands */
   double *of_h;
 } wanted;
@@ -46,16 +46,16 @@ static double largest(const hr2d_solution *solution, average_of *average, size_t
 }
 
 static void want(const hr2d_solution *solution, average_of *average, const hr2d_target *target,
-                 const double *most, double *of, hr2di_watch *watch) {
+                 const double *upper, double *of, hr2di_watch *watch) {
   const hr2d_hierarchy *h = solution->hierarchy;
   const size_t patches = h->scene->patches, bands = h->scene->bands;
   for (size_t b = 0; b < bands; b++) {
     const double floor = target->floor * largest(solution, average, b);
     for (size_t k = 0; k < patches && !hr2di_watch_work(watch, 2); k++) {
-      const double least = fmax(average(solution, k, b), floor);
-      const int counts = least > 0 && hr2di_is_important(target, k);
+      const double lower = fmax(average(solution, k, b), floor);
+      const int counts = lower > 0 && hr2di_is_important(target, k);
       /* H may be smaller than B beyond all bounds; its weight is 1 long before. */
-      of[k * bands + b] = counts ? fmin(most[b] / least, 1e100) / h->element[k].length : 0;
+      of[k * bands + b] = counts ? fmin(upper[b] / lower, 1e100) / h->element[k].length : 0;
     }
   }
 }
@@ -86,20 +86,20 @@ static hr2d_status solve_adjoint(hr2di_equation *eq, const wanted *w) {
 static double contrast_of(const hr2d_solution *solution, average_of *average,
                           const hr2d_target *target) {
   const hr2d_scene *scene = solution->hierarchy->scene;
-  double least = 1;
+  double lower = 1;
   for (size_t b = 0; b < scene->bands; b++) {
     const double max = largest(solution, average, b);
     for (size_t k = 0; k < scene->patches; k++) {
       const double is = average(solution, k, b);
-      if (is > 0) least = fmin(least, fmax(is / max, target->floor));
+      if (is > 0) lower = fmin(lower, fmax(is / max, target->floor));
     }
   }
-  return least;
+  return lower;
 }
 
 static hr2d_status set_lights(hr2di_equation *eq, const hr2d_solution *solution,
                               const hr2d_target *target, const wanted *w,
-                              hr2di_lights *lights) {
+                              hr2di_primal_dual *lights) {
   hr2di_transport *t = &eq->transport;
   const size_t patches = t->hierarchy->scene->patches, values = patches * t->bands;
   lights->radiosity = hr2di_alloc(&t->alloc, values, sizeof *lights->radiosity);
@@ -111,19 +111,19 @@ static hr2d_status set_lights(hr2di_equation *eq, const hr2d_solution *solution,
   for (size_t k = 0; k < values; k++) {
     const size_t patch = k / t->bands, b = k % t->bands;
     lights->radiosity[k] = hr2d_solution_average(solution, patch, b);
-    lights->importance[k] = w->most[b] > 0 ? t->up[patch * t->width + b] / w->most[b] : 0;
+    lights->importance[k] = w->max[b] > 0 ? t->up[patch * t->width + b] / w->max[b] : 0;
   }
   return hr2di_watch_work(t->watch, values / 8);
 }
 
-void hr2di_lights_clear(hr2di_lights *lights, const hr2d_scene *scene) {
+void hr2di_primal_dual_clear(hr2di_primal_dual *lights, const hr2d_scene *scene) {
   hr2di_alloc_free(&scene->alloc, lights->radiosity);
   hr2di_alloc_free(&scene->alloc, lights->importance);
-  *lights = (hr2di_lights){0};
+  *lights = (hr2di_primal_dual){0};
 }
 
 static hr2d_status find_lights(const hr2di_graded *coarse, const hr2d_target *target,
-                               hr2di_lights *lights) {
+                               hr2di_primal_dual *lights) {
   const hr2d_scene *scene = coarse->hierarchy->scene;
   const hr2d_allocator *alloc = &coarse->links->alloc;
   const size_t values = scene->patches * scene->bands;
@@ -140,9 +140,9 @@ static hr2d_status find_lights(const hr2di_graded *coarse, const hr2d_target *ta
   if (!status) {
     const wanted w = {space, space + scene->bands, space + scene->bands + values};
     for (size_t b = 0; b < scene->bands; b++)
-      w.most[b] = largest(coarse->solution, hr2d_solution_average, b);
-    want(coarse->solution, hr2d_solution_average, target, w.most, w.of_b, &eq.watch);
-    want(coarse->solution, hr2d_solution_irradiance, target, w.most, w.of_h, &eq.watch);
+      w.max[b] = largest(coarse->solution, hr2d_solution_average, b);
+    want(coarse->solution, hr2d_solution_average, target, w.max, w.of_b, &eq.watch);
+    want(coarse->solution, hr2d_solution_irradiance, target, w.max, w.of_h, &eq.watch);
     status = hr2di_watch_status(&eq.watch);
     if (!status) status = solve_adjoint(&eq, &w);
     if (!status) status = set_lights(&eq, coarse->solution, target, &w, lights);
@@ -172,10 +172,13 @@ static int is_spared(hr2d_status status) {
 }
 
 hr2d_status hr2di_importance(const hr2d_scene *scene, const hr2d_target *given,
-                             hr2di_looks *looks, hr2di_lights *lights, hr2di_survey *survey,
-                             hr2di_message *message) {
-  const hr2di_resolution fineness = {
-      .order = 1, .target = 0.1, .tolerance = LIGHTS, .norm = given->norm, .looks = looks};
+                             hr2di_beam_cache *beam_cache, hr2di_primal_dual *lights,
+                             hr2di_survey *survey, hr2di_message *message) {
+  const hr2di_resolution fineness = {.order = 1,
+                                     .target = 0.1,
+                                     .tolerance = LIGHTS,
+                                     .norm = given->norm,
+                                     .beam_cache = beam_cache};
   listener l = {.target = given};
   hr2d_target heard = *given, *target = &heard;
   if (given->progress) {
@@ -192,7 +195,7 @@ hr2d_status hr2di_importance(const hr2d_scene *scene, const hr2d_target *given,
   }
   hr2di_graded_clear(&coarse);
   status = hr2di_share_agree(given->share, status);
-  if (status) hr2di_lights_clear(lights, scene);
+  if (status) hr2di_primal_dual_clear(lights, scene);
   double said = l.said != HR2D_OK;
   hr2di_share_begin(given->share);
   if (hr2di_share_combine(given->share, HR2D_OK, HR2D_COMBINE_MOST, &said, 1)) return status;

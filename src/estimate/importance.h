@@ -15,8 +15,8 @@ int hr2di_is_important(const hr2d_target *target, size_t patch);
    status with a reason in `message`.  Lights may be missing with HR2D_OK, if a budget does not
    suffice for them; they are to be cleared in any case. */
 hr2d_status hr2di_importance(const hr2d_scene *scene, const hr2d_target *target,
-                             hr2di_looks *looks, hr2di_lights *lights, hr2di_survey *survey,
-                             hr2di_message *message);
-void hr2di_lights_clear(hr2di_lights *lights, const hr2d_scene *scene);
+                             hr2di_beam_cache *beam_cache, hr2di_primal_dual *lights,
+                             hr2di_survey *survey, hr2di_message *message);
+void hr2di_primal_dual_clear(hr2di_primal_dual *lights, const hr2d_scene *scene);
 
 #endif

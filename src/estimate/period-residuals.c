@@ -34,7 +34,7 @@ static void take_sky(hr2di_estimator *e, int check, const double *off) {
   hr2di_transport_check(t, check, e->error, eq->irradiance);
   for (size_t k = 0; k < eq->field; k++) {
     const size_t leaf = k / t->width;
-    const uint32_t element = hr2di_ties_of(&t->ties, t->leaf[leaf]);
+    const uint32_t element = hr2di_image_map_of(&t->image_map, t->leaf[leaf]);
     if (sees && sees[h->element[element].patch])
       e->tail[k] += copysign(off[element] * hr2di_estimator_sky(e, k % t->width), e->tail[k]);
     else if (t->sky[leaf * t->order] != 0)
@@ -57,26 +57,26 @@ static hr2d_status set_tail(hr2di_estimator *e, int check) {
 
 /* Sets e->tail to the most that may be missing of H: `room` has two numbers for each element.
  */
-static hr2d_status set_most(hr2di_estimator *e, double *room) {
+static hr2d_status set_max(hr2di_estimator *e, double *room) {
   hr2di_equation *eq = &e->eq;
   hr2di_transport *t = &eq->transport;
   const hr2d_hierarchy *h = t->hierarchy;
-  double *const ends = room, *const sky = room + h->elements, *const one = e->error;
+  double *const ends = room, *const sky = room + h->elements, *const unit = e->error;
   const hr2d_status status = hr2di_row_tails_seen(h, ends, sky, t->watch);
   if (status) return status;
-  for (size_t k = 0; k < eq->field; k++) one[k] = hr2di_estimator_sky(e, k % t->width);
-  hr2di_transport_check(t, HR2DI_CHECK_ALL, one, eq->irradiance);
+  for (size_t k = 0; k < eq->field; k++) unit[k] = hr2di_estimator_sky(e, k % t->width);
+  hr2di_transport_check(t, HR2DI_CHECK_ALL, unit, eq->irradiance);
   hr2di_transport_check(t, HR2DI_CHECK_ALL, e->kept, e->tail);
   for (size_t leaf = 0; leaf < t->leaves && !hr2di_estimator_stopped(e); leaf++)
     for (size_t b = 0; b < t->bands; b++) {
-      const uint32_t element = hr2di_ties_of(&t->ties, t->leaf[leaf]);
+      const uint32_t element = hr2di_image_map_of(&t->image_map, t->leaf[leaf]);
       const double light = hr2di_estimator_sky(e, b),
                    shown = light * fabs(sky[element]) +
-                           hr2di_estimator_most(e, eq->irradiance, leaf, b),
+                           hr2di_estimator_max(e, eq->irradiance, leaf, b),
                    all = ends[element] * (fmax(e->largest[0][b], light) + light);
-      const double most = hr2di_estimator_most(e, e->tail, leaf, b) + shown + all;
+      const double max = hr2di_estimator_max(e, e->tail, leaf, b) + shown + all;
       for (size_t m = b; m < t->width; m += t->bands) e->tail[leaf * t->width + m] = 0;
-      e->tail[leaf * t->width + b] = most;
+      e->tail[leaf * t->width + b] = max;
     }
   return hr2di_transport_status(t);
 }
@@ -85,7 +85,7 @@ static hr2d_status set_most(hr2di_estimator *e, double *room) {
 typedef struct results {
   double *average;  /* per check, of B and of H, patches × bands; and at most */
   double *point;    /* per leaf and band, of the views of its points, */
-  double *most;     /* and that at most; */
+  double *max;      /* and that at most; */
   double *indirect; /* per check, leaf and band: Kb; and at most */
   double *seen;     /* two per element */
   double *room;     /* for the points of a leaf */
@@ -109,7 +109,7 @@ static void find_indirect(const hr2di_estimator *e, double *indirect) {
   const hr2di_transport *t = &e->eq.transport;
   for (size_t k = 0; k < t->leaves && !hr2di_estimator_stopped(e); k++)
     for (size_t b = 0; b < t->bands; b++)
-      indirect[k * t->bands + b] = hr2di_estimator_most(e, e->eq.irradiance, k, b);
+      indirect[k * t->bands + b] = hr2di_estimator_max(e, e->eq.irradiance, k, b);
 }
 
 /* `check` may be HR2DI_CHECK_ALL. */
@@ -117,7 +117,7 @@ static hr2d_status run_check(hr2di_estimator *e, int check, const results *r) {
   const hr2di_transport *t = &e->eq.transport;
   const hr2d_scene *scene = t->hierarchy->scene;
   double *average = r->average + 2 * (size_t)check * e->values;
-  hr2d_status status = check == HR2DI_CHECK_ALL ? set_most(e, r->seen) : set_tail(e, check);
+  hr2d_status status = check == HR2DI_CHECK_ALL ? set_max(e, r->seen) : set_tail(e, check);
   if (!status && scene->effect[HR2D_EFFECT_INTERREFLECTION].on) {
     status = reflect(e, average);
     if (!status) find_indirect(e, r->indirect + (size_t)check * t->leaves * t->bands);
@@ -128,7 +128,7 @@ static hr2d_status run_check(hr2di_estimator *e, int check, const results *r) {
 }
 
 /* Nothing is known of the most. */
-static void forget_most(const hr2di_estimator *e, const results *r) {
+static void forget_max(const hr2di_estimator *e, const results *r) {
   const size_t rows = e->eq.transport.leaves * e->eq.transport.bands;
   for (size_t k = 0; k < 2 * e->values; k++)
     r->average[2 * HR2DI_CHECK_ALL * e->values + k] = HUGE_VAL;
@@ -146,7 +146,7 @@ static void note(hr2di_estimator *e, const results *r) {
     const double is = larger(r->average + k, 2 * e->values),
                  all = fabs(r->average[2 * HR2DI_CHECK_ALL * e->values + k]);
     e->past[k / e->values][k % e->values] = fmin(is, all);
-    e->past_most[k / e->values][k % e->values] = fmin(HR2DI_TAIL_BOUND * is, all);
+    e->past_max[k / e->values][k % e->values] = fmin(HR2DI_TAIL_BOUND * is, all);
   }
   const size_t rows = t->leaves * t->bands;
   for (size_t k = 0; k < rows; k++) {
@@ -155,11 +155,11 @@ static void note(hr2di_estimator *e, const results *r) {
                  indirect = larger(r->indirect + k, rows),
                  all = r->indirect[HR2DI_CHECK_ALL * rows + k],
                  is = r->point[k] + fmin(indirect, all),
-                 most = r->most[k] + fmin(HR2DI_TAIL_BOUND * indirect, all);
+                 max = r->max[k] + fmin(HR2DI_TAIL_BOUND * indirect, all);
     e->far[1][b] = fmax(e->far[1][b], is);
     e->far[0][b] = fmax(e->far[0][b], rho * is);
-    e->far_most[1][b] = fmax(e->far_most[1][b], most);
-    e->far_most[0][b] = fmax(e->far_most[0][b], rho * most);
+    e->far_max[1][b] = fmax(e->far_max[1][b], max);
+    e->far_max[0][b] = fmax(e->far_max[0][b], rho * max);
   }
 }
 
@@ -173,13 +173,13 @@ static void note_point(const hr2di_estimator *e, const results *r, size_t leaf,
                  is = ldexp(past[CHECKS * bands + b], -eq->exponent[b]),
                  off = ldexp(larger(past + b, bands), -eq->exponent[b]),
                  all = fmax(is, brightest - fmin(is, 0));
-    double *const point = r->point + leaf * bands + b, *const most = r->most + leaf * bands + b;
+    double *const point = r->point + leaf * bands + b, *const max = r->max + leaf * bands + b;
     *point = fmax(*point, fmin(off, all));
-    *most = fmax(*most, fmin(HR2DI_TAIL_BOUND * off, all));
+    *max = fmax(*max, fmin(HR2DI_TAIL_BOUND * off, all));
   }
 }
 
-static hr2d_status look_from(const hr2di_estimator *e, const results *r, size_t leaf) {
+static hr2d_status view_from(const hr2di_estimator *e, const results *r, size_t leaf) {
   const hr2di_transport *t = &e->eq.transport;
   const hr2d_hierarchy *h = t->hierarchy;
   const hr2d_element *on = &h->element[t->leaf[leaf]];
@@ -194,14 +194,14 @@ static hr2d_status look_from(const hr2di_estimator *e, const results *r, size_t 
   return status;
 }
 
-static hr2d_status look_from_leaves(const hr2di_estimator *e, const results *r) {
+static hr2d_status view_from_leaves(const hr2di_estimator *e, const results *r) {
   const hr2di_transport *t = &e->eq.transport;
   const hr2d_scene *scene = t->hierarchy->scene;
   hr2d_status status = HR2D_OK;
   for (size_t k = 0; k < t->leaves && !status; k++) {
     const size_t patch = t->hierarchy->element[t->leaf[k]].patch;
     if (patch < hr2di_scene_cell(scene) && hr2di_scene_lit(scene, patch))
-      status = look_from(e, r, k);
+      status = view_from(e, r, k);
   }
   return status;
 }
@@ -214,8 +214,8 @@ static hr2d_status reserve(const hr2di_estimator *e, results *r) {
       &t->alloc, averages + (3 + CHECKS) * rows + points + 2 * t->elements, sizeof *r->average);
   if (!r->average) return HR2D_ENOMEM;
   r->point = r->average + averages;
-  r->most = r->point + rows;
-  r->indirect = r->most + rows;
+  r->max = r->point + rows;
+  r->indirect = r->max + rows;
   r->room = r->indirect + (CHECKS + 1) * rows;
   r->seen = r->room + points;
   return HR2D_OK;
@@ -227,11 +227,11 @@ hr2d_status hr2di_period_residuals(hr2di_estimator *e) {
   results r;
   if (!e->tail) return HR2D_OK;
   hr2d_status status = reserve(e, &r);
-  if (!status) status = look_from_leaves(e, &r);
+  if (!status) status = view_from_leaves(e, &r);
   const int few = t->hierarchy->scene->symmetry.copies <= HR2DI_FEW_COPIES;
   for (int check = 0; check < CHECKS + few && !status; check++)
     status = run_check(e, check, &r);
-  if (!status && !few) forget_most(e, &r);
+  if (!status && !few) forget_max(e, &r);
   if (!status) note(e, &r);
   for (size_t k = 0; k < eq->field; k++) e->error[k] = eq->irradiance[k] = 0;
   hr2di_alloc_free(&t->alloc, r.average);

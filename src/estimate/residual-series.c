@@ -47,8 +47,8 @@ static void compare_irradiance(hr2di_estimator *e) {
   for (size_t b = 0; b < t->bands; b++) e->largest[0][b] = e->largest[1][b] = 0;
   for (size_t k = 0; k < t->leaves && !hr2di_estimator_stopped(e); k++)
     for (size_t b = 0; b < t->bands; b++) {
-      const double h = hr2di_estimator_most(e, eq->irradiance, k, b);
-      e->largest[0][b] = fmax(e->largest[0][b], hr2di_estimator_most(e, e->kept, k, b));
+      const double h = hr2di_estimator_max(e, eq->irradiance, k, b);
+      e->largest[0][b] = fmax(e->largest[0][b], hr2di_estimator_max(e, e->kept, k, b));
       e->largest[1][b] = fmax(e->largest[1][b], eq->irradiance[k * t->width + b]);
       e->own[t->leaf[k] * t->bands + b] = h;
       e->off[0][k * t->bands + b] = hr2di_estimator_rounding(e) * h;
@@ -66,7 +66,7 @@ void hr2di_residual_set(hr2di_estimator *e) {
   hr2di_equation_balance(eq);
   compare_irradiance(e);
   hr2di_equation_defect(eq, e->kept, e->residual);
-  e->doubt = hr2di_balance_doubt(&eq->balance, t);
+  e->level_uncertainty = hr2di_balance_doubt(&eq->balance, t);
   for (size_t k = 0; k < eq->field; k++) {
     const size_t leaf = k / t->width, m = k % t->width;
     const int exact = m < t->bands && hr2di_balance_closed(&eq->balance, leaf);
@@ -82,8 +82,8 @@ static double worst_average(hr2di_estimator *e, const double *field) {
   double *average = e->rounding[0], worst = 0;
   hr2di_estimator_averages(e, field, average);
   for (size_t k = 0; k < e->values; k++) {
-    const double least = hr2di_estimator_least(e, 0, k / bands, k % bands);
-    if (least > 0) worst = fmax(worst, fabs(average[k]) / least);
+    const double min = hr2di_estimator_min(e, 0, k / bands, k % bands);
+    if (min > 0) worst = fmax(worst, fabs(average[k]) / min);
   }
   return worst;
 }
@@ -157,7 +157,7 @@ static void saturate_kinks(hr2di_estimator *e) {
     for (size_t b = 0; b < t->bands; b++) {
       double *residual = e->residual + k * t->width + b, seen = 0;
       for (size_t l = order; l < t->order; l++) seen = hypot(seen, residual[l * t->bands]);
-      const double kinks = e->bent[t->leaf[k] * t->bands + b];
+      const double kinks = e->unresolved_jump[t->leaf[k] * t->bands + b];
       if (!(kinks > 0) || ldexp(kinks, -e->eq.exponent[b]) < KINK * seen) continue;
       for (size_t l = order; l < t->order; l++) residual[l * t->bands] /= theta;
     }
@@ -171,7 +171,7 @@ hr2d_status hr2di_residual_solve(hr2di_estimator *e) {
   if (!status)
     status = hr2di_contacts_saturate(&e->contacts, &eq->transport, e->coarse->order,
                                      e->exponent, e->residual);
-  if (!status && e->bent) saturate_kinks(e);
+  if (!status && e->unresolved_jump) saturate_kinks(e);
   return status ? status : sum_series(e);
 }
 
@@ -201,12 +201,12 @@ static void add_nearby(hr2di_estimator *e, uint32_t receiver, uint32_t source) {
   for (size_t b = 0; b < t->bands; b++)
     rho = fmax(rho, hr2d_scene_reflectance(t->hierarchy->scene, patch, b));
   for (size_t b = 0; b < t->bands && !(rho > 0); b++)
-    hr2di_estimator_off(e, e->point, patch, b, NEARBY * e->most[source * t->bands + b]);
+    hr2di_estimator_off(e, e->point, patch, b, NEARBY * e->max[source * t->bands + b]);
 }
 
 static void add_all_nearby(hr2di_estimator *e) {
   const hr2di_transport *t = &e->eq.transport;
-  hr2di_estimator_set_most(e, e->error);
+  hr2di_estimator_set_max(e, e->error);
   for (uint64_t k = 0; k < t->links->store.count; k++) {
     const hr2d_pair pair = hr2di_store_at(&t->links->store, k)->pair;
     if (t->order > 1 && t->links->blocks.distant[k]) continue;
@@ -230,7 +230,7 @@ hr2d_status hr2di_residual_measure(hr2di_estimator *e) {
   for (size_t k = 0; k < t->leaves && !hr2di_estimator_stopped(e); k++)
     for (size_t b = 0; b < t->bands; b++)
       hr2di_estimator_off(e, e->point, t->hierarchy->element[t->leaf[k]].patch, b,
-                          hr2di_estimator_most(e, eq->irradiance, k, b));
+                          hr2di_estimator_max(e, eq->irradiance, k, b));
   add_contacts(e);
   add_all_nearby(e);
   if (!t->links->share) return HR2D_OK;

@@ -5,8 +5,8 @@
 
 #include <hr2d/accuracy.h>
 
-#include "mesh/kinks.h"
-#include "visibility/looks.h"
+#include "mesh/event-selection.h"
+#include "visibility/beam-cache.h"
 
 /* How fine a graded solve is. */
 typedef struct hr2di_resolution {
@@ -20,20 +20,21 @@ typedef struct hr2di_resolution {
   double floor;            /* no light counts as less, relative to the brightest */
   hr2d_norm norm;
   unsigned corner_levels; /* levels at corners beyond what the target asks for */
-  int flat;             /* elements are not graded for the target, but for these levels alone */
-  double distance;      /* the ellipse at which ends in front of elements may be */
-  int hidden;           /* the scene has visibility events */
-  int crowded;          /* it has very many */
-  unsigned generations; /* elements end at events of so many generations */
-  int shares;           /* errors that are too large name the elements that make them, where
-                           no events have been chosen */
-  int hasty;            /* errors that do so need no bound, and none at points */
-  double kinks;         /* the shares of error that events inside elements may make; 0:
-                           elements end at all events */
-  int single;           /* floats suffice for blocks */
-  unsigned raises;      /* how often it was made finer */
-  const hr2di_lights *lights; /* of patches, to tell which events matter */
-  hr2di_looks *looks;         /* what patches see, for all attempts; NULL: nothing is kept */
+  int no_corner_grading;  /* elements are not graded for the target, but for these levels alone
+                           */
+  double distance;        /* the ellipse at which ends in front of elements may be */
+  int has_events;         /* the scene has visibility events */
+  int many_patches;       /* it has very many */
+  unsigned generations;   /* elements end at events of so many generations */
+  int a_posteriori;       /* errors that are too large name the elements that make them, where
+                       no events have been chosen */
+  int skip_bound;         /* errors that do so need no bound, and none at points */
+  double kinks;           /* the shares of error that events inside elements may make; 0:
+                             elements end at all events */
+  int single;             /* floats suffice for blocks */
+  unsigned raises;        /* how often it was made finer */
+  const hr2di_primal_dual *lights; /* of patches, to tell which events matter */
+  hr2di_beam_cache *beam_cache; /* what patches see, for all attempts; NULL: nothing is kept */
 } hr2di_resolution;
 
 /* The resolution of the finer operator with which a graded solve is compared: it has so many

@@ -36,7 +36,7 @@
 /* The largest |value| of a field on a leaf without its constant, which is set to 0. */
 static double fluctuation(hr2di_estimator *e, double *field, size_t leaf, size_t band) {
   field[leaf * e->eq.transport.width + band] = 0;
-  return hr2di_estimator_most(e, field, leaf, band);
+  return hr2di_estimator_max(e, field, leaf, band);
 }
 
 /* Whether H as it is told has the mean of H in the place of that of B. */
@@ -46,35 +46,35 @@ static int is_moved(const hr2di_transport *t, size_t leaf) {
 
 /* |z̄' + z_i − z̄| at most, for z̄ over the patch, with B̄ of patches in e->rounding[0]; |z_i|
    where the mean of closure stays.  `from` is z_i − B_i. */
-static double moved(const hr2di_estimator *e, size_t leaf, size_t band, double from,
-                    double most, double rest) {
+static double moved(const hr2di_estimator *e, size_t leaf, size_t band, double from, double max,
+                    double rest) {
   const hr2di_transport *t = &e->eq.transport;
   const size_t patch = t->hierarchy->element[t->leaf[leaf]].patch;
-  if (!is_moved(t, leaf)) return most;
-  const double apart =
+  if (!is_moved(t, leaf)) return max;
+  const double mean_shift =
       e->kept[leaf * t->width + band] - e->rounding[0][patch * t->bands + band];
-  return fabs(hr2di_estimator_value(e, 1, patch, band) + from + apart) + rest;
+  return fabs(hr2di_estimator_value(e, 1, patch, band) + from + mean_shift) + rest;
 }
 
-/* Sets `most`, `rest` and `told` to constants on leaves: |z| at most, |z − z̄| over the leaf,
+/* Sets `max`, `rest` and `reported` to constants on leaves: |z| at most, |z − z̄| over the leaf,
    and moved(). */
-static void set_fields(hr2di_estimator *e, double *most, double *rest, double *told) {
+static void set_fields(hr2di_estimator *e, double *max, double *rest, double *reported) {
   const hr2di_transport *t = &e->eq.transport;
   for (size_t k = 0; k < e->eq.field; k++) {
     const size_t m = k % t->width;
     const int lit =
         t->sky && m < t->bands && !hr2di_balance_closed(&e->eq.balance, k / t->width);
     rest[k] = e->rest[k] - (lit ? e->eq.light[m] : 0);
-    most[k] = 0;
+    max[k] = 0;
   }
   for (size_t leaf = 0; leaf < t->leaves && !hr2di_estimator_stopped(e); leaf++) {
     double *at = rest + leaf * t->width;
     for (size_t b = 0; b < t->bands; b++) {
       const size_t k = leaf * t->width + b;
       const double from = at[b] - e->kept[k];
-      most[k] = hr2di_estimator_most(e, rest, leaf, b);
+      max[k] = hr2di_estimator_max(e, rest, leaf, b);
       at[b] = fluctuation(e, rest, leaf, b);
-      told[k] = moved(e, leaf, b, from, most[k], at[b]);
+      reported[k] = moved(e, leaf, b, from, max[k], at[b]);
     }
   }
 }
@@ -90,46 +90,46 @@ static int is_set(const double *field, size_t leaf, size_t count) {
    both fluctuate; d̄ is not 0 if it is above the noise of closure.  Below that d is 0, which is
    no more than a rounding of doubles, but of floats it is. */
 static double corrected(const hr2di_estimator *e, const double *row, size_t leaf, size_t band,
-                        double most, double rest) {
+                        double max, double rest) {
   const hr2di_transport *t = &e->eq.transport;
   const size_t square = t->order * t->order;
   const double mean = row[leaf * t->width + band];
-  if (t->closed[t->hierarchy->element[t->leaf[leaf]].patch]) return most;
+  if (t->closed[t->hierarchy->element[t->leaf[leaf]].patch]) return max;
   if (!t->blocks.single && !is_set(t->closure, leaf, square)) return 0;
   const int shifted = fabs(t->closure[leaf * square]) > 0.5 * hr2di_closure_noise(t) * mean;
-  return hr2di_estimator_most(e, row, leaf, band) * (shifted ? most : rest);
+  return hr2di_estimator_max(e, row, leaf, band) * (shifted ? max : rest);
 }
 
 /* r_i|B_i| at most, of H as B has it and as it is told. */
 static double corrected_own(const hr2di_estimator *e, const double *row, size_t leaf,
-                            size_t band, int told, double rest) {
-  const double most = hr2di_estimator_most(e, e->kept, leaf, band);
-  return corrected(e, row, leaf, band, told ? moved(e, leaf, band, 0, most, rest) : most, rest);
+                            size_t band, int reported, double rest) {
+  const double max = hr2di_estimator_max(e, e->kept, leaf, band);
+  return corrected(e, row, leaf, band, reported ? moved(e, leaf, band, 0, max, rest) : max,
+                   rest);
 }
 
 /* e->off is εH so far.  Without closure d is a part of s alone. */
 static void add_rows(hr2di_estimator *e) {
   hr2di_equation *eq = &e->eq;
   hr2di_transport *t = &eq->transport;
-  double *const most = e->error, *const rest = eq->radiosity, *const one = eq->work;
-  double *const received = eq->source, *const row = eq->irradiance, *const told = eq->y;
+  double *const max = e->error, *const rest = eq->radiosity, *const unit = eq->work;
+  double *const received = eq->source, *const row = eq->irradiance, *const reported = eq->y;
   const double rounding = hr2di_estimator_rounding(e);
   if (!t->closure && !t->sky) return;
   hr2di_estimator_averages(e, e->kept, e->rounding[0]);
-  set_fields(e, most, rest, told);
-  for (size_t k = 0; k < eq->field; k++) one[k] = k % t->width < t->bands;
-  hr2di_transport_apply_part(t, HR2DI_ALL_LINKS, most, received);
-  if (!t->all_closed) hr2di_transport_apply_part(t, HR2DI_DISTANT_LINKS, one, row);
+  set_fields(e, max, rest, reported);
+  for (size_t k = 0; k < eq->field; k++) unit[k] = k % t->width < t->bands;
+  hr2di_transport_apply_part(t, HR2DI_ALL_LINKS, max, received);
+  if (!t->all_closed) hr2di_transport_apply_part(t, HR2DI_DISTANT_LINKS, unit, row);
   for (size_t leaf = 0; leaf < t->leaves && !hr2di_estimator_stopped(e); leaf++) {
     const int sky = is_set(t->sky, leaf, t->order);
     for (size_t b = 0; b < t->bands && (t->closure || sky); b++) {
       const size_t at = leaf * t->width + b;
       if (!sky && e->largest[0][b] == 0) continue; /* nothing sends to it */
-      const double all = hr2di_estimator_most(e, received, leaf, b);
-      const double light =
-          t->closure ? 0 : hr2di_estimator_most(e, row, leaf, b) * eq->light[b];
+      const double all = hr2di_estimator_max(e, received, leaf, b);
+      const double light = t->closure ? 0 : hr2di_estimator_max(e, row, leaf, b) * eq->light[b];
       for (int h = 0; h < 2; h++) {
-        const double z = h ? told[at] : most[at];
+        const double z = h ? reported[at] : max[at];
         const double own = t->closure ? corrected(e, row, leaf, b, z, rest[at]) : light;
         double *off = e->off[h] + leaf * t->bands + b;
         const double by_b =
@@ -158,7 +158,7 @@ static void add_sun(hr2di_estimator *e) {
       hr2di_sunlight_of(scene, patch, b, &parts);
       const int seen =
           scene->sky.pieces > 0 && e->eq.outside && e->eq.outside[leaf * t->width + b] != 0;
-      const double sky = seen ? hr2di_sky_most(scene, b) : 0;
+      const double sky = seen ? hr2di_sky_max(scene, b) : 0;
       for (int h = 0; h < 2 && sky > 0; h++)
         e->off[h][leaf * t->bands + b] += ARC * ldexp(sky, -e->eq.exponent[b]);
       if (parts == 0) continue;
@@ -177,7 +177,7 @@ static void set_own(hr2di_estimator *e) {
       const size_t at = t->leaf[leaf] * t->bands + b;
       const size_t patch = t->hierarchy->element[t->leaf[leaf]].patch;
       e->own[at] = is_moved(t, leaf) ? fmax(e->own[at], hr2di_estimator_value(e, 1, patch, b))
-                                     : e->most[at];
+                                     : e->max[at];
     }
   hr2di_estimator_lift(e, e->own);
 }
@@ -198,7 +198,7 @@ static void add_points(hr2di_estimator *e, size_t b) {
   const hr2di_transport *t = &eq->transport;
   const double own = HR2DI_ESTIMATOR_ROUNDING * e->largest[1][b] + slivers(e, b);
   for (size_t leaf = 0; leaf < t->leaves && !hr2di_estimator_stopped(e); leaf++) {
-    const double h = hr2di_estimator_most(e, eq->irradiance, leaf, b) + own;
+    const double h = hr2di_estimator_max(e, eq->irradiance, leaf, b) + own;
     e->stray[1][b] = fmax(e->stray[1][b], h);
     /* Where light from outside is absorbed at once, nothing is rounded. */
     if (e->largest[0][b] > 0)
@@ -212,14 +212,14 @@ hr2d_status hr2di_rounding_bound(hr2di_estimator *e, int reflects) {
   const hr2di_transport *t = &eq->transport;
   add_rows(e);
   if (hr2di_scene_has_sun(t->hierarchy->scene) || t->hierarchy->scene->sky.pieces) add_sun(e);
-  hr2di_estimator_set_most(e, e->kept);
+  hr2di_estimator_set_max(e, e->kept);
   set_own(e);
-  const hr2di_levels levels = {e->most, e->own, eq->light};
+  const hr2di_levels levels = {e->max, e->own, eq->light};
   hr2d_status status = hr2di_coordinates_add(t, &levels, e->off);
   for (size_t k = 0; k < eq->field && !status; k++) {
     const size_t leaf = k / t->width, m = k % t->width;
     const double b =
-        m < t->bands ? HR2DI_ESTIMATOR_ROUNDING * hr2di_estimator_most(e, e->rest, leaf, m) : 0;
+        m < t->bands ? HR2DI_ESTIMATOR_ROUNDING * hr2di_estimator_max(e, e->rest, leaf, m) : 0;
     eq->source[k] =
         m < t->bands ? hr2di_estimator_rho(e, leaf, m) * e->off[0][leaf * t->bands + m] + b : 0;
     eq->radiosity[k] = eq->source[k]; /* where nothing reflects */

@@ -74,9 +74,9 @@ typedef struct squares {
 static void add(const hr2di_estimator *e, uint32_t i, uint32_t j, double kernel,
                 const double *beta, squares *s) {
   const size_t bands = e->eq.transport.bands;
-  i = hr2di_ties_of(&e->eq.transport.ties, i);
+  i = hr2di_image_map_of(&e->eq.transport.image_map, i);
   for (size_t b = 0; b < bands; b++) {
-    const double h = fmin(kernel * beta[j * bands + b], e->most[j * bands + b]);
+    const double h = fmin(kernel * beta[j * bands + b], e->max[j * bands + b]);
     if (s->bin)
       hr2di_bin_add(&s->bin[i * bands + b], s->scale, h * h);
     else
@@ -143,10 +143,10 @@ static hr2d_status add_links(hr2di_estimator *e, const double *beta, squares *s)
 static hr2d_status add_shares(hr2di_estimator *e, const double *beta, squares *s) {
   const hr2di_transport *t = &e->eq.transport;
   const size_t count = t->elements * t->bands;
-  double most = 0;
-  for (size_t k = 0; k < count; k++) most = fmax(most, e->most[k]);
-  const double ends = t->ties.of ? 2 : 1; /* both may count for the same patch */
-  s->scale = hr2di_bin_scale(most * most * ends * (double)t->links->counts.links);
+  double max = 0;
+  for (size_t k = 0; k < count; k++) max = fmax(max, e->max[k]);
+  const double ends = t->image_map.of ? 2 : 1; /* both may count for the same patch */
+  s->scale = hr2di_bin_scale(max * max * ends * (double)t->links->counts.links);
   s->bin = hr2di_alloc_zero(&t->alloc, count, sizeof *s->bin);
   hr2d_status status = s->bin ? add_links(e, beta, s) : HR2D_ENOMEM;
   if (!status) status = hr2di_transport_status(t);
@@ -166,7 +166,7 @@ hr2d_status hr2di_shadow_residuals(hr2di_estimator *e) {
   if (!beta) return HR2D_ENOMEM;
   double *square = beta + count;
   integrate_error(e, beta);
-  hr2di_estimator_set_most(e, e->error);
+  hr2di_estimator_set_max(e, e->error);
   squares s = {.sum = square};
   hr2d_status status = HR2D_OK;
   if (t->links->share)

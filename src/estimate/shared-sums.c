@@ -9,7 +9,7 @@ hr2d_status hr2di_shared_sums_init(hr2di_shared_sums *s, hr2d_share *share,
   if (!share) return HR2D_OK;
   s->space = hr2di_alloc_zero(alloc, count, 4 * sizeof *s->space);
   if (!s->space) return HR2D_ENOMEM;
-  s->most = s->space;
+  s->max = s->space;
   s->number = s->space + count;
   s->bin = (hr2di_bin *)(s->space + 2 * count);
   return HR2D_OK;
@@ -20,11 +20,11 @@ void hr2di_shared_sums_clear(hr2di_shared_sums *s) {
 }
 
 static hr2d_status set_scales(hr2di_shared_sums *s, hr2d_status status) {
-  status = hr2di_share_combine(s->share, status, HR2D_COMBINE_MOST, s->most, s->count);
+  status = hr2di_share_combine(s->share, status, HR2D_COMBINE_MOST, s->max, s->count);
   if (!status)
     status = hr2di_share_combine(s->share, HR2D_OK, HR2D_COMBINE_SUM, s->number, s->count);
   for (size_t k = 0; k < s->count && !status; k++)
-    s->most[k] = hr2di_bin_scale(s->most[k] * s->number[k]);
+    s->max[k] = hr2di_bin_scale(s->max[k] * s->number[k]);
   return status;
 }
 

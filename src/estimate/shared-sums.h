@@ -13,7 +13,7 @@ typedef struct hr2di_shared_sums {
   hr2d_allocator alloc;
   double *sum;    /* the caller's */
   double *space;  /* holds the arrays below */
-  double *most;   /* the largest term, then σ */
+  double *max;    /* the largest term, then σ */
   double *number; /* of terms */
   hr2di_bin *bin;
   size_t count;
@@ -29,9 +29,9 @@ static inline void hr2di_shared_sums_add(hr2di_shared_sums *s, size_t place, dou
   if (!s->share) {
     s->sum[place] += term;
   } else if (s->adding) {
-    hr2di_bin_add(&s->bin[place], s->most[place], term);
+    hr2di_bin_add(&s->bin[place], s->max[place], term);
   } else {
-    s->most[place] = fmax(s->most[place], term);
+    s->max[place] = fmax(s->max[place], term);
     s->number[place]++;
   }
 }

@@ -34,8 +34,8 @@ typedef struct search {
   const hr2di_light_source *of;
   const hr2di_border_scale *scale;
   hr2di_watch *watch;
-  hr2di_round_view view;
-  hr2di_round_stretch *seen; /* of this sector, from right to left */
+  hr2di_visibility_polygon view;
+  hr2di_polygon_arc *seen; /* of this sector, from right to left */
   size_t count, room;
   hr2d_point w;
 } search;
@@ -73,23 +73,24 @@ static double jump_between(const search *s, thing one, thing other) {
   for (size_t b = 0; b < s->of->solution->bands; b++) {
     const int sky = (one.patch == HR2DI_ROUND_SKY) != (other.patch == HR2DI_ROUND_SKY);
     const double spread =
-        sky ? hr2di_sky_most(s->of->scene, b) - hr2di_sky_least(s->of->scene, b) : 0;
-    const double apart = fabs(value_of(s->of, one, b) - value_of(s->of, other, b)) + spread;
-    if (apart > 0) jump = fmax(jump, apart / s->scale->band[b]);
+        sky ? hr2di_sky_max(s->of->scene, b) - hr2di_sky_min(s->of->scene, b) : 0;
+    const double difference =
+        fabs(value_of(s->of, one, b) - value_of(s->of, other, b)) + spread;
+    if (difference > 0) jump = fmax(jump, difference / s->scale->band[b]);
   }
   return jump;
 }
 
-static hr2d_status take(void *ctx, const hr2di_round_stretch *stretch) {
+static hr2d_status take(void *ctx, const hr2di_polygon_arc *arc) {
   search *s = ctx;
   if (hr2di_alloc_reserve(&s->to->alloc, &s->seen, &s->room, s->count + 1, sizeof *s->seen))
     return HR2D_ENOMEM;
-  s->seen[s->count++] = *stretch;
+  s->seen[s->count++] = *arc;
   return HR2D_OK;
 }
 
 /* How far a ray from w gets, as a multiple of r, before it ends on what a stretch shows. */
-static double reach_of(const search *s, hr2d_point r, const hr2di_round_stretch *on) {
+static double reach_of(const search *s, hr2d_point r, const hr2di_polygon_arc *on) {
   const hr2di_triangulation *in = &s->of->scene->plane.triangulation;
   if (on->what == HR2DI_SKY) return HUGE_VAL;
   const hr2di_wall_edge *edge = &in->edge[(uint32_t)~on->what >> 1];
@@ -103,7 +104,7 @@ static double reach_of(const search *s, hr2d_point r, const hr2di_round_stretch 
 
 /* What there is too much of ends the search like a stop. */
 static hr2d_status put(hr2di_borders *to, hr2di_border border) {
-  to->many = to->count >= to->most;
+  to->many = to->count >= to->max;
   if (to->many) return HR2D_STOPPED;
   if (hr2di_alloc_reserve(&to->alloc, &to->border, &to->room, to->count + 1,
                           sizeof *to->border))
@@ -127,7 +128,7 @@ static hr2d_status add(search *s, hr2d_point r, double reach, double jump, int l
 /* What a sector shows in a direction; where on a patch, about. */
 static thing seen_in(const search *s, hr2d_point direction) {
   for (size_t k = 0; k < s->count; k++) {
-    const hr2di_round_stretch *on = &s->seen[k];
+    const hr2di_polygon_arc *on = &s->seen[k];
     const double right = hr2di_point_cross(on->right, direction),
                  left = hr2di_point_cross(direction, on->left);
     if (right < 0 || left < 0 || !(on->angle > 0)) continue;
@@ -204,7 +205,7 @@ static hr2d_status add_sector(search *s, int32_t first, int32_t last) {
 }
 
 /* All sectors around the vertex that half-edge h leaves along a wall. */
-static hr2d_status look_from_end(search *s, int32_t h) {
+static hr2d_status view_from_end(search *s, int32_t h) {
   const hr2di_triangulation *in = &s->of->scene->plane.triangulation;
   const int32_t start = h;
   hr2d_status status = HR2D_OK;
@@ -212,7 +213,7 @@ static hr2d_status look_from_end(search *s, int32_t h) {
   do {
     int32_t last = h;
     s->count = 0;
-    status = hr2di_look_between(&s->view, h, &last);
+    status = hr2di_beams_between(&s->view, h, &last);
     if (!status && s->count > 0) status = add_sector(s, h, last);
     if (status) return status;
     const uint32_t side = (uint32_t)~in->triangle[last >> 2].across[last & 3];
@@ -222,16 +223,16 @@ static hr2d_status look_from_end(search *s, int32_t h) {
 }
 
 /* From a place along a wall where what is seen of it jumps, in front of it. */
-static hr2d_status look_from_place(search *s, hr2d_segment wall, double at, double jump,
+static hr2d_status view_from_place(search *s, hr2d_segment wall, double at, double jump,
                                    int lit) {
   const hr2d_point d = hr2di_point_minus(wall.b, wall.a);
   const double off = HR2DI_FIELD_BESIDE / hypot(d.x, d.y);
   const hr2d_point x = {wall.a.x + at * d.x - off * d.y, wall.a.y + at * d.y + off * d.x};
   int touches;
   s->count = 0;
-  hr2d_status status = hr2di_look_round(&s->view, x, &touches);
+  hr2d_status status = hr2di_beams_all_round(&s->view, x, &touches);
   for (size_t k = 0; k < s->count && !status; k++) {
-    const hr2di_round_stretch *right = &s->seen[k], *left = &s->seen[(k + 1) % s->count];
+    const hr2di_polygon_arc *right = &s->seen[k], *left = &s->seen[(k + 1) % s->count];
     const hr2d_point v = right->left;
     status = add(s, v, fmax(reach_of(s, v, right), reach_of(s, v, left)), jump, lit);
     if (!status) status = hr2di_watch_work(s->watch, 4);
@@ -240,7 +241,7 @@ static hr2d_status look_from_place(search *s, hr2d_segment wall, double at, doub
 }
 
 /* Where two parts of a side meet. */
-static hr2d_status look_from_parts(search *s, hr2di_parts parts) {
+static hr2d_status view_from_parts(search *s, hr2di_parts parts) {
   const hr2di_side_part *part = s->of->scene->parts.part;
   hr2d_status status = HR2D_OK;
   for (uint32_t k = parts.first; k + 1 < parts.last && !status; k++) {
@@ -254,14 +255,14 @@ static hr2d_status look_from_parts(search *s, hr2di_parts parts) {
                        e = hr2di_point_minus(part[k].at.b, on.a);
       what[n] = (thing){patch, fmin(fmax(hr2di_point_dot(d, e) / hr2di_point_dot(d, d), 0), 1)};
     }
-    status = look_from_place(s, part[k].at, 1, jump_between(s, what[0], what[1]),
+    status = view_from_place(s, part[k].at, 1, jump_between(s, what[0], what[1]),
                              has_light(s->of, what[0]) != has_light(s->of, what[1]));
   }
   return status;
 }
 
 /* Where B jumps within a patch. */
-static hr2d_status look_from_jumps(search *s, size_t patch) {
+static hr2d_status view_from_jumps(search *s, size_t patch) {
   const hr2di_leaves *l = &s->of->leaves;
   const uint32_t on = hr2di_light_patch(s->of, (uint32_t)patch);
   hr2d_status status = HR2D_OK;
@@ -270,7 +271,7 @@ static hr2d_status look_from_jumps(search *s, size_t patch) {
     if (l->group[k] == l->group[k - 1]) continue;
     const thing after = {(uint32_t)patch, l->leaf[k].from},
                 before = {(uint32_t)patch, nextafter(l->leaf[k].from, 0)};
-    status = look_from_place(s, s->of->scene->patch[patch].scaled, l->leaf[k].from,
+    status = view_from_place(s, s->of->scene->patch[patch].scaled, l->leaf[k].from,
                              jump_between(s, before, after), 0);
   }
   return status;
@@ -333,12 +334,12 @@ static hr2d_status find(search *s, const int32_t *first) {
   hr2d_status status = HR2D_OK;
   for (size_t k = 0; k < in->edges && !status; k++) status = add_wall(s, &in->edge[k]);
   for (size_t k = 0; k < in->vertices && !status; k++)
-    if (first[k] >= 0) status = look_from_end(s, first[k]);
+    if (first[k] >= 0) status = view_from_end(s, first[k]);
   for (size_t k = 0; k < in->vertices && !status; k++)
     if (first[k] >= 0) status = add_suns(s, in->at[k]);
   for (size_t k = 0; k < 2 * in->edges && !status; k++)
-    if (scene->parts.wanted[k]) status = look_from_parts(s, scene->parts.of_side[k].parts);
-  for (size_t k = 0; k < scene->patches && !status; k++) status = look_from_jumps(s, k);
+    if (scene->parts.wanted[k]) status = view_from_parts(s, scene->parts.of_side[k].parts);
+  for (size_t k = 0; k < scene->patches && !status; k++) status = view_from_jumps(s, k);
   return status;
 }
 
@@ -349,19 +350,19 @@ size_t hr2di_borders_sources(const hr2di_light_source *of) {
 }
 
 hr2d_status hr2di_borders_find(hr2di_borders *b, const hr2di_light_source *of,
-                               const hr2di_border_scale *scale, size_t most,
+                               const hr2di_border_scale *scale, size_t max,
                                hr2di_watch *watch) {
   const hr2d_allocator alloc = of->scene->alloc;
-  *b = (hr2di_borders){.alloc = alloc, .most = most};
+  *b = (hr2di_borders){.alloc = alloc, .max = max};
   search s = {.to = b, .of = of, .scale = scale, .watch = watch};
-  s.view = (hr2di_round_view){
+  s.view = (hr2di_visibility_polygon){
       .scene = of->scene, .alloc = alloc, .watch = watch, .take = take, .ctx = &s};
   int32_t *first = first_walls(&of->scene->plane.triangulation, &alloc);
   hr2d_status status = first ? find(&s, first) : HR2D_ENOMEM;
   if (b->many) status = HR2D_OK;
   hr2di_alloc_free(&alloc, first);
   hr2di_alloc_free(&alloc, s.seen);
-  hr2di_round_view_clear(&s.view);
+  hr2di_visibility_polygon_clear(&s.view);
   return status;
 }
 

@@ -19,8 +19,8 @@ typedef struct hr2di_borders {
   hr2d_allocator alloc;
   hr2di_border *border;
   size_t count, room;
-  size_t most; /* of them, */
-  int many;    /* and whether there are more: then this is not all */
+  size_t max; /* of them, */
+  int many;   /* and whether there are more: then this is not all */
 } hr2di_borders;
 
 /* What a jump is measured by. */
@@ -35,8 +35,7 @@ size_t hr2di_borders_sources(const hr2di_light_source *of);
 /* All borders, and all walls, but at most so many.  HR2D_OK, HR2D_ENOMEM or the status of the
    watch; to be ended by hr2di_borders_clear() in any case. */
 hr2d_status hr2di_borders_find(hr2di_borders *b, const hr2di_light_source *of,
-                               const hr2di_border_scale *scale, size_t most,
-                               hr2di_watch *watch);
+                               const hr2di_border_scale *scale, size_t max, hr2di_watch *watch);
 void hr2di_borders_clear(hr2di_borders *b);
 
 #endif

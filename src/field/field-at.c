@@ -14,18 +14,20 @@
 enum { GROUP = 32 };
 
 /* What takes the stretches of a view.  Sums are those of what is seen; `far` has what images
-   that are cut off add to them, by series, `late` what the later half of the images shows,
-   `past` the sky that is seen past the ends although it is not there, and `one` a stretch. */
-typedef struct looker {
+   that are cut off add to them, by series, `second_half` what the later half of the images
+   shows, `past` the sky that is seen past the ends although it is not there, and `current` a
+   stretch. */
+typedef struct observer {
   hr2di_field_worker *worker;
-  hr2di_light_sum sum, far, late, past, one;
+  hr2di_light_sum sum, far, second_half, past, current;
   hr2di_far_view view;
   double *off;     /* per check of the series, and band: what it leaves of ∫ B dω */
   double ends;     /* angles of the ends, */
-  double gone;     /* and of sky that is past them */
-  double apart[2]; /* by which half of the images tell another angle of fronts and of sky */
-  int mixed;       /* a piece of the sky ends there */
-} looker;
+  double past_sky; /* and of sky that is past them */
+  double half_difference[2]; /* by which half of the images tell another angle of fronts and of
+                                sky */
+  int mixed;                 /* a piece of the sky ends there */
+} observer;
 
 static void clear(hr2di_light_sum *sum, size_t bands) {
   sum->front = sum->back = sum->sky = 0;
@@ -45,23 +47,23 @@ static void add_times(hr2di_light_sum *to, double factor, const hr2di_light_sum 
   for (size_t b = 0; b < 2 * bands && to->flux; b++) to->flux[b] += factor * sum->flux[b];
 }
 
-/* Adds `one` as often as its series says. */
-static void add_one(looker *l, const hr2di_far_part *part) {
+/* Adds `current` as often as its series says. */
+static void add_current(observer *l, const hr2di_far_part *part) {
   const size_t bands = l->sum.of->solution->bands;
   const double weight = part->weight;
-  l->apart[0] += (weight - part->half) * l->one.front;
-  l->apart[1] += (weight - part->half) * l->one.sky;
-  add_times(&l->far, weight, &l->one);
-  if (part->late) add_times(&l->late, 1, &l->one);
+  l->half_difference[0] += (weight - part->half) * l->current.front;
+  l->half_difference[1] += (weight - part->half) * l->current.sky;
+  add_times(&l->far, weight, &l->current);
+  if (part->second_half) add_times(&l->second_half, 1, &l->current);
   for (size_t b = 0; b < bands; b++) {
-    l->off[b] += part->check[0] * l->one.mean[b];
-    l->off[bands + b] += part->check[1] * l->one.mean[b];
+    l->off[b] += part->check[0] * l->current.mean[b];
+    l->off[bands + b] += part->check[1] * l->current.mean[b];
   }
 }
 
 /* Notes what is past the ends between two directions, and adds the suns that shine from there.
    Returns whether it is more than the sky at the horizon. */
-static int note_far(looker *l, hr2d_point right, hr2d_point left) {
+static int note_far(observer *l, hr2d_point right, hr2d_point left) {
   const hr2di_light_source *of = l->sum.of;
   const int mixed = hr2di_far_changes(l->view.scene, right, left);
   int suns = 0;
@@ -75,25 +77,25 @@ static int note_far(looker *l, hr2d_point right, hr2d_point left) {
 }
 
 static void take_far_sky(void *ctx, const hr2di_far_part *part) {
-  looker *l = ctx;
-  clear(&l->one, l->sum.of->solution->bands);
+  observer *l = ctx;
+  clear(&l->current, l->sum.of->solution->bands);
   if (part->past && note_far(l, part->right, part->left)) {
-    hr2di_light_add(&l->one, &(hr2di_round_stretch){.patch = HR2DI_ROUND_SKY,
-                                                    .right = part->right,
-                                                    .left = part->left,
-                                                    .angle = part->angle});
+    hr2di_light_add(&l->current, &(hr2di_polygon_arc){.patch = HR2DI_ROUND_SKY,
+                                                      .right = part->right,
+                                                      .left = part->left,
+                                                      .angle = part->angle});
   } else {
-    hr2di_light_add_sky(&l->one, part->right, part->left, part->angle, part->bearing, 1);
+    hr2di_light_add_sky(&l->current, part->right, part->left, part->angle, part->bearing, 1);
   }
   if (!part->past) {
-    add_one(l, part);
+    add_current(l, part);
     return;
   }
-  add_times(&l->past, 1, &l->one);
-  l->gone += part->angle;
+  add_times(&l->past, 1, &l->current);
+  l->past_sky += part->angle;
 }
 
-static void take_far(looker *l, const hr2di_round_stretch *s) {
+static void take_far(observer *l, const hr2di_polygon_arc *s) {
   const hr2di_symmetry *all = &l->view.scene->symmetry;
   if (s->patch == HR2DI_ROUND_SKY) {
     hr2di_far_sky(&l->view, s, take_far_sky, l);
@@ -112,48 +114,48 @@ static void take_far(looker *l, const hr2di_round_stretch *s) {
       .weight = all->points.weight[term],
       .check = {all->points.check[0][term], all->points.check[1][term]},
       .half = all->points.half[term],
-      .late = 2 * term > all->copies};
-  clear(&l->one, l->sum.of->solution->bands);
-  hr2di_light_add(&l->one, s);
-  add_one(l, &part);
+      .second_half = 2 * term > all->copies};
+  clear(&l->current, l->sum.of->solution->bands);
+  hr2di_light_add(&l->current, s);
+  add_current(l, &part);
 }
 
-static hr2d_status take(void *ctx, const hr2di_round_stretch *s) {
-  looker *l = ctx;
-  l->sum.x = l->one.x = l->worker->view.x;
+static hr2d_status take(void *ctx, const hr2di_polygon_arc *s) {
+  observer *l = ctx;
+  l->sum.x = l->current.x = l->worker->view.x;
   hr2di_light_add(&l->sum, s);
   if (l->view.quadrants > 0) take_far(l, s);
   return hr2di_watch_status(l->worker->watch);
 }
 
 /* Without a series: what is past the ends is as the later half of the images is. */
-static void take_late(looker *l, double all) {
+static void take_second_half(observer *l, double all) {
   const hr2di_light_source *of = l->sum.of;
   const size_t bands = of->solution->bands;
-  const double angle = l->late.front + l->late.sky;
+  const double angle = l->second_half.front + l->second_half.sky;
   clear(&l->far, bands);
-  if (angle > 0) add_times(&l->far, all / angle, &l->late);
+  if (angle > 0) add_times(&l->far, all / angle, &l->second_half);
   for (size_t b = 0; b < bands; b++) l->off[b] = HUGE_VAL;
 }
 
 /* What the light past the ends is off by: what the checks of its series say, and no more than
    that it may be all of the brightest light or nothing.  Where a piece of the sky ends there,
    the series has the light of the horizon, and checks do not tell. */
-static double off_by(const looker *l, size_t band, double all) {
+static double off_by(const observer *l, size_t band, double all) {
   const hr2di_light_source *of = l->sum.of;
-  const double most = all * fmax(of->leaves.scale[band], hr2di_sky_most(of->scene, band));
+  const double max = all * fmax(of->leaves.scale[band], hr2di_sky_max(of->scene, band));
   const double is = l->far.mean[band];
   const double off =
       l->mixed ? HUGE_VAL : fmax(fabs(l->off[band]), fabs(l->off[of->solution->bands + band]));
-  return fmin(HR2DI_TAIL_BOUND * off, fmax(is, most - fmin(is, 0)));
+  return fmin(HR2DI_TAIL_BOUND * off, fmax(is, max - fmin(is, 0)));
 }
 
 /* Where nothing is past the ends, roundings of what stands for it are nothing, too. */
-static void join(looker *l) {
-  const double all = l->ends + l->gone;
+static void join(observer *l) {
+  const double all = l->ends + l->past_sky;
   if (!(all > 0)) return;
-  const double apart = fmax(fabs(l->apart[0]), fabs(l->apart[1]));
-  if (l->view.far || apart > HR2DI_FAR_UNSETTLED * all) take_late(l, all);
+  const double half_difference = fmax(fabs(l->half_difference[0]), fabs(l->half_difference[1]));
+  if (l->view.far || half_difference > HR2DI_FAR_UNSETTLED * all) take_second_half(l, all);
   l->sum.back += all - l->far.front - l->far.sky;
   add_times(&l->sum, 1, &l->far);
   add_times(&l->sum, -1, &l->past);
@@ -178,21 +180,21 @@ static double part_of(double angle) {
 hr2d_status hr2di_field_look(hr2di_field_worker *w, const hr2di_light_source *of, hr2d_point x,
                              hr2di_field_look_at *seen) {
   const size_t bands = of->solution->bands;
-  looker l = {.worker = w, .off = w->room + 5 * 4 * bands};
+  observer l = {.worker = w, .off = w->room + 5 * 4 * bands};
   hr2di_light_sum *sum = &l.sum;
   int touches;
   set_sum(&l.sum, of, w, w->room);
   set_sum(&l.far, of, w, w->room + 4 * bands);
-  set_sum(&l.late, of, w, w->room + 8 * bands);
+  set_sum(&l.second_half, of, w, w->room + 8 * bands);
   set_sum(&l.past, of, w, w->room + 12 * bands);
-  set_sum(&l.one, of, w, w->room + 16 * bands);
+  set_sum(&l.current, of, w, w->room + 16 * bands);
   for (size_t b = 0; b < 2 * bands; b++) l.off[b] = 0;
   double *flux = w->room + bands;
   w->view.take = take;
   w->view.ctx = &l;
   x = hr2di_far_home(of->scene, x);
   hr2di_far_view_init(&l.view, of->scene, x);
-  const hr2d_status status = hr2di_look_round(&w->view, x, &touches);
+  const hr2d_status status = hr2di_beams_all_round(&w->view, x, &touches);
   join(&l);
   seen->place = hr2di_field_place(of->scene, sum->front, sum->sky, touches);
   const int dark = seen->place == HR2D_PLACE_OUTSIDE;
@@ -203,7 +205,7 @@ hr2d_status hr2di_field_look(hr2di_field_worker *w, const hr2di_light_source *of
   seen->error = sum->error;
   seen->sky = part_of(sum->sky);
   seen->back = part_of(sum->back);
-  seen->cut_off = part_of(l.ends + l.gone);
+  seen->cut_off = part_of(l.ends + l.past_sky);
   for (size_t b = 0; b < bands; b++) {
     sum->mean[b] = dark ? NAN : sum->mean[b] / (2 * HR2DI_PI);
     flux[2 * b] = dark ? NAN : flux[2 * b] / 2;

@@ -58,10 +58,10 @@ static void find_range(hr2di_grid_call *c) {
 static hr2d_status find_borders(hr2di_grid_call *c) {
   const hr2d_field_values *v = &c->f.values;
   const size_t tiles = c->map.tiles[0] * c->map.tiles[1],
-               most = tiles < FEW_BORDERS / BORDERS ? FEW_BORDERS : BORDERS * tiles;
+               max = tiles < FEW_BORDERS / BORDERS ? FEW_BORDERS : BORDERS * tiles;
   const hr2di_border_scale scale = {c->range, v->sky || v->back ? c->grid.tolerance : HUGE_VAL};
   const hr2d_status status =
-      hr2di_borders_find(&c->borders, &c->f.source, &scale, most, &c->f.watch);
+      hr2di_borders_find(&c->borders, &c->f.source, &scale, max, &c->f.watch);
   return status || c->borders.many
              ? status
              : hr2di_border_map_init(&c->map, &c->borders, &c->f.source.scene->alloc,

@@ -7,7 +7,7 @@
 #include <hr2d/field.h>
 #include <math.h>
 
-#include "field/round-view.h"
+#include "field/visibility-polygon.h"
 #include "scene/with-plane.h"
 
 /* A scene with a plane, or HR2D_ESCENE if nobody knows how its walls cross; otherwise as
@@ -36,7 +36,7 @@ typedef hr2d_status (*hr2di_field_fn)(void *ctx, hr2di_field_worker *w, size_t t
 /* One thread. */
 struct hr2di_field_worker {
   hr2di_watch own, *watch;
-  hr2di_round_view view;
+  hr2di_visibility_polygon view;
   double *room; /* of `needs` doubles */
   hr2d_status status;
 };

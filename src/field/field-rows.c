@@ -16,12 +16,12 @@
 enum { GROUP = 32, ROUND = 1024 };
 
 /* What is seen under some of the directions; sorted by patch, and by the place in the view. */
-typedef struct glimpse {
+typedef struct interval {
   uint32_t patch, place;
   double share, factor;
-  double far[2]; /* what is to be added to these for images that are cut off */
-  int late;      /* the image is of the later half */
-} glimpse;
+  double far[2];   /* what is to be added to these for images that are cut off */
+  int second_half; /* the image is of the later half */
+} interval;
 
 /* A row of a round, in the memory of its task. */
 typedef struct kept_row {
@@ -35,10 +35,10 @@ typedef struct kept_row {
 typedef struct past {
   hr2di_far_view view;
   double ends[2], front[2], sky[2]; /* share, factor */
-  double apart[2];                  /* as in field-at.c */
-  double late;                      /* the share that the later half of the images has */
-  double late_sky;
-  double gone[2]; /* the share of sky that is past the ends */
+  double half_difference[2];        /* as in field-at.c */
+  double second_half;               /* the share that the later half of the images has */
+  double second_half_sky;
+  double past_sky[2]; /* the share of sky that is past the ends */
 } past;
 
 /* The entries of a task. */
@@ -59,16 +59,16 @@ typedef struct visit {
 } visit;
 
 /* One point. */
-typedef struct looker {
+typedef struct observer {
   const hr2d_allocator *alloc;
-  glimpse *glimpse;
+  interval *interval;
   size_t count, room;
   hr2d_point normal;
   int has_normal;
   kept_row *row;
   double front;
   past past;
-} looker;
+} observer;
 
 /* ½ ∫ n·ω dω between two unit vectors, over n·ω > 0.  To the left the sine to the right, s,
    falls, and behind the horizon on the right it counts as 1, on the left as −1. */
@@ -91,55 +91,55 @@ static void add(double to[2], double weight, double share, double factor) {
   to[1] += weight * factor;
 }
 
-static double factor_of(const looker *l, hr2d_point right, hr2d_point left) {
+static double factor_of(const observer *l, hr2d_point right, hr2d_point left) {
   return l->has_normal ? form_factor(l->normal, unit(right), unit(left)) : 0;
 }
 
 static void take_far_sky(void *ctx, const hr2di_far_part *part) {
-  looker *l = ctx;
+  observer *l = ctx;
   const double share = part->angle / (2 * HR2DI_PI),
                factor = factor_of(l, part->right, part->left);
   if (part->past) {
-    add(l->past.gone, 1, share, factor);
+    add(l->past.past_sky, 1, share, factor);
     return;
   }
   add(l->past.sky, part->weight, share, factor);
-  if (part->late) l->past.late_sky += share;
-  l->past.apart[1] += (part->weight - part->half) * share;
+  if (part->second_half) l->past.second_half_sky += share;
+  l->past.half_difference[1] += (part->weight - part->half) * share;
 }
 
 /* As take_late() of field-at.c. */
-static void take_late(looker *l, const double all[2]) {
+static void take_second_half(observer *l, const double all[2]) {
   past *p = &l->past;
-  const double shares = p->late + p->late_sky;
+  const double shares = p->second_half + p->second_half_sky;
   p->front[0] = p->front[1] = 0;
-  for (int m = 0; m < 2; m++) p->sky[m] = shares > 0 ? all[m] * p->late_sky / shares : 0;
+  for (int m = 0; m < 2; m++) p->sky[m] = shares > 0 ? all[m] * p->second_half_sky / shares : 0;
   for (size_t k = 0; k < l->count; k++)
     for (int m = 0; m < 2; m++) {
-      glimpse *g = &l->glimpse[k];
-      g->far[m] = g->late && shares > 0 ? all[m] * g->share / shares : 0;
+      interval *g = &l->interval[k];
+      g->far[m] = g->second_half && shares > 0 ? all[m] * g->share / shares : 0;
       p->front[m] += g->far[m];
     }
 }
 
 /* Where nothing is past the ends, roundings of what stands for it are nothing, too. */
-static void join(looker *l) {
+static void join(observer *l) {
   past *p = &l->past;
-  const double all[2] = {p->ends[0] + p->gone[0], p->ends[1] + p->gone[1]};
+  const double all[2] = {p->ends[0] + p->past_sky[0], p->ends[1] + p->past_sky[1]};
   if (!(all[0] > 0)) {
-    for (size_t k = 0; k < l->count; k++) l->glimpse[k].far[0] = l->glimpse[k].far[1] = 0;
+    for (size_t k = 0; k < l->count; k++) l->interval[k].far[0] = l->interval[k].far[1] = 0;
     return;
   }
-  const double apart = fmax(fabs(p->apart[0]), fabs(p->apart[1]));
-  if (p->view.far || apart > HR2DI_FAR_UNSETTLED * all[0]) take_late(l, all);
+  const double half_difference = fmax(fabs(p->half_difference[0]), fabs(p->half_difference[1]));
+  if (p->view.far || half_difference > HR2DI_FAR_UNSETTLED * all[0]) take_second_half(l, all);
   for (int m = 0; m < 2; m++) {
-    l->row->sky[m] += p->sky[m] - p->gone[m];
+    l->row->sky[m] += p->sky[m] - p->past_sky[m];
     l->row->back[m] += all[m] - p->front[m] - p->sky[m];
   }
 }
 
-static hr2d_status take(void *ctx, const hr2di_round_stretch *s) {
-  looker *l = ctx;
+static hr2d_status take(void *ctx, const hr2di_polygon_arc *s) {
+  observer *l = ctx;
   const hr2d_scene *scene = l->past.view.scene;
   const double share = s->angle / (2 * HR2DI_PI), factor = factor_of(l, s->right, s->left);
   if (!(s->angle > 0)) return HR2D_OK;
@@ -156,31 +156,31 @@ static hr2d_status take(void *ctx, const hr2di_round_stretch *s) {
   const unsigned term =
       scene->symmetry.motion ? hr2di_symmetry_term(&scene->symmetry, s->patch) : 0;
   const double weight = t->weight[term];
-  const int late = 2 * term > scene->symmetry.copies;
-  l->past.apart[0] += (weight - t->half[term]) * share;
-  if (late) l->past.late += share;
+  const int second_half = 2 * term > scene->symmetry.copies;
+  l->past.half_difference[0] += (weight - t->half[term]) * share;
+  if (second_half) l->past.second_half += share;
   add(l->past.front, weight, share, factor);
   l->front += share;
-  if (hr2di_alloc_reserve(l->alloc, &l->glimpse, &l->room, l->count + 1, sizeof *l->glimpse))
+  if (hr2di_alloc_reserve(l->alloc, &l->interval, &l->room, l->count + 1, sizeof *l->interval))
     return HR2D_ENOMEM;
-  l->glimpse[l->count] = (glimpse){(uint32_t)hr2di_scene_original(scene, s->patch),
-                                   (uint32_t)l->count,
-                                   share,
-                                   factor,
-                                   {weight * share, weight * factor},
-                                   late};
+  l->interval[l->count] = (interval){(uint32_t)hr2di_scene_original(scene, s->patch),
+                                     (uint32_t)l->count,
+                                     share,
+                                     factor,
+                                     {weight * share, weight * factor},
+                                     second_half};
   l->count++;
   return HR2D_OK;
 }
 
 static int by_patch(const void *left, const void *right) {
-  const glimpse *l = left, *r = right;
+  const interval *l = left, *r = right;
   if (l->patch != r->patch) return l->patch < r->patch ? -1 : 1;
   return (l->place > r->place) - (l->place < r->place);
 }
 
 /* Adds a row to the entries of a task, with one entry for each patch. */
-static hr2d_status keep(const looker *l, store *s) {
+static hr2d_status keep(const observer *l, store *s) {
   const size_t needed = s->used + l->count;
   if (hr2di_alloc_reserve(l->alloc, &s->patch, &s->room[0], needed, sizeof *s->patch) ||
       hr2di_alloc_reserve(l->alloc, &s->share, &s->room[1], needed, sizeof *s->share) ||
@@ -188,7 +188,7 @@ static hr2d_status keep(const looker *l, store *s) {
     return HR2D_ENOMEM;
   l->row->first = s->used;
   for (size_t k = 0; k < l->count; k++) {
-    const glimpse *g = &l->glimpse[k];
+    const interval *g = &l->interval[k];
     const int more = k > 0 && g->patch == g[-1].patch;
     const size_t place = more ? s->used - 1 : s->used;
     s->patch[place] = g->patch;
@@ -200,7 +200,7 @@ static hr2d_status keep(const looker *l, store *s) {
   return HR2D_OK;
 }
 
-static hr2d_status make_row(visit *v, hr2di_field_worker *w, looker *l, size_t point,
+static hr2d_status make_row(visit *v, hr2di_field_worker *w, observer *l, size_t point,
                             store *s) {
   int touches;
   l->row = &v->kept[point - v->first];
@@ -212,27 +212,27 @@ static hr2d_status make_row(visit *v, hr2di_field_worker *w, looker *l, size_t p
   w->view.take = take;
   w->view.ctx = l;
   const hr2d_point x = hr2di_far_home(v->scene, hr2di_field_scaled(v->scene, v->at[point]));
-  l->past = (past){.late = 0};
+  l->past = (past){.second_half = 0};
   hr2di_far_view_init(&l->past.view, v->scene, x);
-  hr2d_status status = hr2di_look_round(&w->view, x, &touches);
+  hr2d_status status = hr2di_beams_all_round(&w->view, x, &touches);
   join(l);
   l->row->place = hr2di_field_place(v->scene, l->front, l->row->sky[0], touches);
   if (!status)
-    status = hr2di_sort(l->glimpse, l->count, sizeof *l->glimpse, by_patch, w->watch);
+    status = hr2di_sort(l->interval, l->count, sizeof *l->interval, by_patch, w->watch);
   return status ? status : keep(l, s);
 }
 
 static hr2d_status do_group(void *ctx, hr2di_field_worker *w, size_t task) {
   visit *v = ctx;
   store *s = &v->store[task];
-  looker l = {.alloc = v->alloc};
+  observer l = {.alloc = v->alloc};
   hr2d_status status = HR2D_OK;
   s->used = 0;
   for (size_t k = v->first + task * GROUP; k < v->last && k < v->first + (task + 1) * GROUP;
        k++) {
     if (!status) status = make_row(v, w, &l, k, s);
   }
-  hr2di_alloc_free(v->alloc, l.glimpse);
+  hr2di_alloc_free(v->alloc, l.interval);
   return status;
 }
 

@@ -46,7 +46,8 @@ static hr2d_status hire(team *t) {
     hr2di_field_worker *w = &t->worker[t->workers];
     w->watch = t->workers == 0 ? t->is->watch : &w->own;
     hr2di_watch_follow(&w->own, t->is->watch);
-    w->view = (hr2di_round_view){.scene = t->is->scene, .alloc = *alloc, .watch = w->watch};
+    w->view =
+        (hr2di_visibility_polygon){.scene = t->is->scene, .alloc = *alloc, .watch = w->watch};
     w->room = hr2di_alloc(alloc, t->is->needs, sizeof *w->room);
     if (!w->room) return HR2D_ENOMEM;
   }
@@ -56,7 +57,7 @@ static hr2d_status hire(team *t) {
 static void dismiss(team *t, uint64_t *steps) {
   for (size_t k = 0; k < t->workers; k++) {
     *steps += t->worker[k].view.between.steps;
-    hr2di_round_view_clear(&t->worker[k].view);
+    hr2di_visibility_polygon_clear(&t->worker[k].view);
     hr2di_alloc_free(&t->is->scene->alloc, t->worker[k].room);
   }
   hr2di_alloc_free(&t->is->scene->alloc, t->worker);
@@ -67,7 +68,7 @@ static void do_task(void *ctx, size_t worker, size_t task) {
   team *t = ctx;
   hr2di_field_worker *w = &t->worker[worker];
   hr2d_status status = atomic_load(&t->stop) ? HR2D_STOPPED : hr2di_watch_status(w->watch);
-  hr2di_round_view_restart(&w->view);
+  hr2di_visibility_polygon_restart(&w->view);
   if (!status) status = t->is->run(t->is->ctx, w, task);
   atomic_fetch_add(&t->done, 1);
   if (!status || w->status) return;
@@ -75,9 +76,9 @@ static void do_task(void *ctx, size_t worker, size_t task) {
   atomic_store(&t->stop, 1);
 }
 
-static void describe(void *of, hr2d_progress *told) {
+static void describe(void *of, hr2d_progress *report) {
   const team *t = of;
-  told->fraction = (double)atomic_load(&t->done) / (double)t->tasks;
+  report->fraction = (double)atomic_load(&t->done) / (double)t->tasks;
 }
 
 /* The status of the first that failed and was not told to stop. */

@@ -72,7 +72,7 @@ static double *support(const tile *t, const block *b, int k) {
   return node_of(t, column[k % 3], row[k / 3]);
 }
 
-static hr2d_status look(tile *t, int column, int row) {
+static hr2d_status evaluate(tile *t, int column, int row) {
   const hr2di_grid_call *c = t->call;
   double *node = node_of(t, column, row);
   hr2di_field_look_at seen;
@@ -106,12 +106,12 @@ static int is_even(const tile *t, const block *b) {
       hypot(longer_part(b, 0) * c->map.step.x, longer_part(b, 1) * c->map.step.y);
   const int dark = first[HR2DI_NODE_PLACE] == HR2D_PLACE_OUTSIDE;
   hr2di_map_block on = {.cell = {longer_part(b, 0), longer_part(b, 1)}};
-  double least_lit = 1;
+  double min_lit = 1;
   int lit;
   for (int k = 0; k < 9; k++) {
     const double *node = support(t, b, k);
-    least_lit = fmin(least_lit, 1 - node[HR2DI_NODE_BACK] -
-                                    (c->f.source.lit_sky ? 0 : node[HR2DI_NODE_SKY]));
+    min_lit = fmin(min_lit, 1 - node[HR2DI_NODE_BACK] -
+                                (c->f.source.lit_sky ? 0 : node[HR2DI_NODE_SKY]));
     if (node[HR2DI_NODE_CLEARANCE] < near || node[HR2DI_NODE_PLACE] == HR2D_PLACE_PATCH ||
         node[HR2DI_NODE_PLACE] != first[HR2DI_NODE_PLACE])
       return 0;
@@ -121,7 +121,7 @@ static int is_even(const tile *t, const block *b) {
     on.high[k] = (double)(t->at[k] + (size_t)b->high[k]);
   }
   if (!(hr2di_border_map_error(&c->map, t->number, &on, &lit) <= KINK)) return 0;
-  return !lit || (!dark && least_lit > LEAST_LIT);
+  return !lit || (!dark && min_lit > LEAST_LIT);
 }
 
 /* Where the j-th of three nodes is along a block. */
@@ -131,15 +131,15 @@ static double part_of(const block *b, int k, int j) {
 
 /* Item k of the nine nodes minus its interpolation through the corners, the largest. */
 static double bend(const tile *t, const block *b, size_t k) {
-  double v[3][3], most = 0;
+  double v[3][3], max = 0;
   for (int j = 0; j < 9; j++) v[j / 3][j % 3] = support(t, b, j)[k];
   for (int j = 0; j < 9; j++) {
     const double x = part_of(b, 0, j % 3), y = part_of(b, 1, j / 3);
     const double plain =
         (1 - y) * ((1 - x) * v[0][0] + x * v[0][2]) + y * ((1 - x) * v[2][0] + x * v[2][2]);
-    most = fmax(most, fabs(v[j / 3][j % 3] - plain));
+    max = fmax(max, fabs(v[j / 3][j % 3] - plain));
   }
-  return most;
+  return max;
 }
 
 /* What item k may be off by; HUGE_VAL if it is not wanted. */
@@ -200,7 +200,7 @@ static void interpolate(tile *t, const block *b, int column, int row) {
    interpolated. */
 static hr2d_status probe_at(tile *t, const block *b, int column, int row, int *fits) {
   double *to = t->probe;
-  const hr2d_status status = look(t, column, row);
+  const hr2d_status status = evaluate(t, column, row);
   const double *node = node_of(t, column, row);
   interpolate_to(t, b, column, row, to);
   *fits = node[HR2DI_NODE_PLACE] == support(t, b, 0)[HR2DI_NODE_PLACE];
@@ -243,7 +243,7 @@ static hr2d_status fill(tile *t, const block *whole) {
     for (int j = 0; j < 9 && !status; j++) {
       const int column[] = {b.low[0], middle(&b, 0), b.high[0]},
                 row[] = {b.low[1], middle(&b, 1), b.high[1]};
-      status = look(t, column[j % 3], row[j / 3]);
+      status = evaluate(t, column[j % 3], row[j / 3]);
     }
     if (status || is_done(&b)) continue;
     int fits = is_even(t, &b) && is_flat(t, &b);
@@ -312,7 +312,7 @@ hr2d_status hr2di_grid_tile(void *ctx, hr2di_field_worker *w, size_t task) {
   if (c->coarse && !c->borders.many && !c->map.crowded[task]) status = fill(&t, &all);
   for (int row = t.own_low[1]; row <= t.own_high[1] && !status; row++)
     for (int column = t.own_low[0]; column <= t.own_high[0] && !status; column++)
-      if (node_of(&t, column, row)[HR2DI_NODE_KNOWN] == 0) status = look(&t, column, row);
+      if (node_of(&t, column, row)[HR2DI_NODE_KNOWN] == 0) status = evaluate(&t, column, row);
   if (!status) keep(&t);
   atomic_fetch_add(&c->exact, t.exact);
   atomic_fetch_add(&c->interpolated, t.interpolated);

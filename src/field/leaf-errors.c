@@ -18,16 +18,16 @@ enum { MORE = 3 };
 #define INSET  1e-9
 #define MISSED 2
 
-typedef struct looker {
+typedef struct observer {
   const hr2di_leaves *leaves;
   const hr2d_solution *solution;
   hr2di_watch *watch;
   double *t, *value; /* of the points of a leaf */
   double *largest;   /* per band: of B */
   double *error;
-} looker;
+} observer;
 
-static hr2d_status look(looker *l, size_t patch, size_t leaf) {
+static hr2d_status sample(observer *l, size_t patch, size_t leaf) {
   const hr2d_solution *s = l->solution;
   const double from = l->leaves->leaf[leaf].from, to = hr2di_leaf_end(l->leaves, patch, leaf);
   const size_t points = s->order + MORE, last = points - 1;
@@ -47,7 +47,7 @@ static hr2d_status look(looker *l, size_t patch, size_t leaf) {
 }
 
 /* Adds the last term, and takes the largest of the children, which have higher numbers. */
-static void join(looker *l, double sup) {
+static void join(observer *l, double sup) {
   const hr2d_solution *s = l->solution;
   const size_t cell = hr2di_scene_cell(s->hierarchy->scene);
   for (size_t e = s->elements; e-- > 0;) {
@@ -65,7 +65,7 @@ hr2d_status hr2di_leaf_errors(const hr2di_leaves *leaves, const hr2d_solution *s
                               double sup, hr2di_watch *watch, double **error) {
   const size_t points = solution->order + MORE, bands = solution->bands;
   const hr2d_allocator *alloc = &solution->alloc;
-  looker l = {.leaves = leaves, .solution = solution, .watch = watch};
+  observer l = {.leaves = leaves, .solution = solution, .watch = watch};
   l.error = hr2di_alloc_zero(alloc, solution->elements * bands, sizeof *l.error);
   l.t = hr2di_alloc_zero(alloc, points + (points + 1) * bands, sizeof *l.t);
   hr2d_status status = l.error && l.t ? HR2D_OK : HR2D_ENOMEM;
@@ -75,7 +75,7 @@ hr2d_status hr2di_leaf_errors(const hr2di_leaves *leaves, const hr2d_solution *s
   }
   for (size_t k = 0; k < hr2di_scene_cell(solution->hierarchy->scene) && !status; k++)
     for (size_t m = leaves->of_patch[k]; m < leaves->of_patch[k + 1] && !status; m++)
-      status = look(&l, k, m);
+      status = sample(&l, k, m);
   if (!status) join(&l, sup);
   hr2di_alloc_free(alloc, l.t);
   if (status) hr2di_alloc_free(alloc, l.error);

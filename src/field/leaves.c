@@ -18,26 +18,26 @@ typedef struct piece {
 /* |φ_l| ≤ √(2l+1), so that B differs from its average by at most Σ |c_l| √(2l+1). */
 static hr2di_leaf leaf_of(const hr2d_solution *s, const piece *p, const double *scale) {
   const double *value = s->value + p->element * s->order * s->bands;
-  double level = 0, most = 0;
+  double level = 0, max = 0;
   for (size_t b = 0; b < s->bands; b++) {
     double sum = 0;
     for (size_t l = 1; l < s->order; l++)
       sum += fabs(value[l * s->bands + b]) * sqrt(2 * (double)l + 1);
-    if (sum > 0) most = fmax(most, sum / scale[b]);
+    if (sum > 0) max = fmax(max, sum / scale[b]);
     if (value[b] != 0) level = fmax(level, fabs(value[b]) / scale[b]);
   }
-  return (hr2di_leaf){p->from, p->element, (float)level, (float)most};
+  return (hr2di_leaf){p->from, p->element, (float)level, (float)max};
 }
 
 /* apart: how much B differs from each element, as a part of what is allowed; NULL: nothing
    is. */
-static int is_leaf(const hr2d_solution *s, uint32_t element, const double *apart) {
+static int is_leaf(const hr2d_solution *s, uint32_t element, const double *difference) {
   const uint32_t child = s->hierarchy->element[element].child;
-  return !child || child >= s->elements || (apart && apart[element] <= 1);
+  return !child || child >= s->elements || (difference && difference[element] <= 1);
 }
 
 static hr2d_status add_leaves(hr2di_leaves *l, const hr2d_solution *s, size_t patch,
-                              const double *apart, hr2di_watch *watch) {
+                              const double *difference, hr2di_watch *watch) {
   const hr2d_element *element = s->hierarchy->element;
   piece stack[STACK];
   size_t count = 0;
@@ -46,7 +46,7 @@ static hr2d_status add_leaves(hr2di_leaves *l, const hr2d_solution *s, size_t pa
     const piece p = stack[--count];
     const hr2d_status status = hr2di_watch_work(watch, 1);
     if (status) return status;
-    if (!is_leaf(s, p.element, apart) && count < STACK - 2) {
+    if (!is_leaf(s, p.element, difference) && count < STACK - 2) {
       const uint32_t child = element[p.element].child;
       const double middle =
           p.from + hr2di_element_left_part(element, p.element) * (p.to - p.from);
@@ -77,7 +77,7 @@ static hr2d_status find_scale(const hr2d_solution *s, double *scale, hr2di_watch
 /* How far an element is from one of its children, as a part of what is allowed: the sum of the
    differences of all coefficients, times √(2k+1). */
 static double distance(const hr2d_solution *s, const double *relation, const double *parent,
-                       const double *child, const double *most) {
+                       const double *child, const double *max) {
   const size_t order = s->order, bands = s->bands;
   double worst = 0;
   for (size_t b = 0; b < bands; b++) {
@@ -87,64 +87,65 @@ static double distance(const hr2d_solution *s, const double *relation, const dou
       for (size_t l = k; l < order; l++) c += relation[l * order + k] * parent[l * bands + b];
       sum += fabs(c) * sqrt(2 * (double)k + 1);
     }
-    if (sum > 0) worst = fmax(worst, sum / most[b]);
+    if (sum > 0) worst = fmax(worst, sum / max[b]);
   }
   return worst;
 }
 
 /* B differs from an element by no more than from one of its children, plus what this differs
    from the element.  Children have higher numbers. */
-static hr2d_status find_apart(const hr2d_solution *s, const hr2di_push_pull *trees,
-                              const double *most, double *apart, hr2di_watch *watch) {
+static hr2d_status find_differences(const hr2d_solution *s, const hr2di_push_pull *trees,
+                                    const double *max, double *difference, hr2di_watch *watch) {
   const size_t each = s->order * s->bands, square = s->order * s->order;
   hr2d_status status = HR2D_OK;
   for (size_t e = s->elements; e-- > 0 && !status;) {
     const uint32_t child = s->hierarchy->element[e].child;
-    apart[e] = 0;
+    difference[e] = 0;
     if (is_leaf(s, (uint32_t)e, NULL)) continue;
     const double *relation = hr2di_push_pull_relation(trees, (uint32_t)e);
     for (uint32_t k = 0; k < 2; k++)
-      apart[e] = fmax(apart[e],
-                      apart[child + k] + distance(s, relation + k * square, s->value + e * each,
-                                                  s->value + (child + k) * each, most));
+      difference[e] =
+          fmax(difference[e],
+               difference[child + k] + distance(s, relation + k * square, s->value + e * each,
+                                                s->value + (child + k) * each, max));
     status = hr2di_watch_work(watch, 1 + square * s->bands / 16);
   }
   return status;
 }
 
-static hr2d_status merge(hr2di_leaves *l, const hr2d_solution *s, const double *most,
-                         double **apart, hr2di_watch *watch) {
+static hr2d_status merge(hr2di_leaves *l, const hr2d_solution *s, const double *max,
+                         double **difference, hr2di_watch *watch) {
   hr2di_push_pull trees;
-  *apart = hr2di_alloc(&l->alloc, s->elements, sizeof **apart);
-  if (!*apart) return HR2D_ENOMEM;
+  *difference = hr2di_alloc(&l->alloc, s->elements, sizeof **difference);
+  if (!*difference) return HR2D_ENOMEM;
   hr2d_status status =
       hr2di_push_pull_init(&trees, s->hierarchy, &l->alloc, s->order, s->bands, watch);
-  if (!status) status = find_apart(s, &trees, most, *apart, watch);
+  if (!status) status = find_differences(s, &trees, max, *difference, watch);
   hr2di_push_pull_clear(&trees);
   return status;
 }
 
-hr2d_status hr2di_leaves_init(hr2di_leaves *l, const hr2d_solution *solution,
-                              const double *most, hr2di_watch *watch) {
+hr2d_status hr2di_leaves_init(hr2di_leaves *l, const hr2d_solution *solution, const double *max,
+                              hr2di_watch *watch) {
   const size_t patches = solution->hierarchy->scene->patches;
-  double *apart = NULL;
+  double *difference = NULL;
   *l = (hr2di_leaves){.alloc = solution->alloc};
   l->of_patch = hr2di_alloc(&l->alloc, patches + 1, sizeof *l->of_patch);
   l->scale = hr2di_alloc(&l->alloc, solution->bands, sizeof *l->scale);
   hr2d_status status = l->of_patch && l->scale ? HR2D_OK : HR2D_ENOMEM;
   if (!status) status = find_scale(solution, l->scale, watch);
-  if (!status && most) status = merge(l, solution, most, &apart, watch);
+  if (!status && max) status = merge(l, solution, max, &difference, watch);
   for (size_t k = 0; k < patches && !status; k++) {
     l->of_patch[k] = l->leaves;
-    status = add_leaves(l, solution, k, apart, watch);
+    status = add_leaves(l, solution, k, difference, watch);
   }
   if (!status) l->of_patch[patches] = l->leaves;
-  hr2di_alloc_free(&l->alloc, apart);
+  hr2di_alloc_free(&l->alloc, difference);
   return status;
 }
 
 /* φ_l is √(2l+1) at the end of a leaf, and that with the sign of (−1)^l at its start. */
-static int jumps(const hr2d_solution *s, const hr2di_leaf *leaf, const double *most) {
+static int jumps(const hr2d_solution *s, const hr2di_leaf *leaf, const double *max) {
   const double *before = s->value + leaf[0].element * s->order * s->bands,
                *after = s->value + leaf[1].element * s->order * s->bands;
   for (size_t b = 0; b < s->bands; b++) {
@@ -154,18 +155,18 @@ static int jumps(const hr2d_solution *s, const hr2di_leaf *leaf, const double *m
       jump += phi * ((l % 2 ? -after[l * s->bands + b] : after[l * s->bands + b]) -
                      before[l * s->bands + b]);
     }
-    if (fabs(jump) > most[b]) return 1;
+    if (fabs(jump) > max[b]) return 1;
   }
   return 0;
 }
 
 hr2d_status hr2di_leaves_group(hr2di_leaves *l, const hr2d_solution *solution,
-                               const double *most, hr2di_watch *watch) {
+                               const double *max, hr2di_watch *watch) {
   hr2d_status status = HR2D_OK;
   l->group = hr2di_alloc(&l->alloc, l->leaves, sizeof *l->group);
   if (!l->group) return HR2D_ENOMEM;
   for (size_t k = 0; k < l->leaves && !status; k++) {
-    const int more = k > 0 && jumps(solution, &l->leaf[k - 1], most);
+    const int more = k > 0 && jumps(solution, &l->leaf[k - 1], max);
     l->group[k] = k > 0 ? l->group[k - 1] + (uint32_t)more : 0;
     status = hr2di_watch_work(watch, 1);
   }

@@ -23,17 +23,17 @@ typedef struct hr2di_leaves {
   double *scale;    /* per band: the largest coefficient */
 } hr2di_leaves;
 
-/* With `most` leaves are merged: an element takes their place from which B differs by at most
+/* With `max` leaves are merged: an element takes their place from which B differs by at most
    most[b] in band b.  NULL: all are kept.  HR2D_OK, HR2D_ENOMEM or the status of the watch; to
    be ended by hr2di_leaves_clear() in any case. */
-hr2d_status hr2di_leaves_init(hr2di_leaves *l, const hr2d_solution *solution,
-                              const double *most, hr2di_watch *watch);
+hr2d_status hr2di_leaves_init(hr2di_leaves *l, const hr2d_solution *solution, const double *max,
+                              hr2di_watch *watch);
 void hr2di_leaves_clear(hr2di_leaves *l);
 
-/* Makes groups: B jumps by at most `most` of a band between leaves of one group.  HR2D_OK,
+/* Makes groups: B jumps by at most `max` of a band between leaves of one group.  HR2D_OK,
    HR2D_ENOMEM or the status of the watch. */
 hr2d_status hr2di_leaves_group(hr2di_leaves *l, const hr2d_solution *solution,
-                               const double *most, hr2di_watch *watch);
+                               const double *max, hr2di_watch *watch);
 
 /* The end of a leaf as a fraction of its patch. */
 static inline double hr2di_leaf_end(const hr2di_leaves *l, size_t patch, size_t leaf) {

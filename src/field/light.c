@@ -62,31 +62,31 @@ static hr2di_light_far far_of(const hr2di_light_source *of, const hr2di_leaf *le
   hr2di_light_far far;
   for (int k = 0; k < HR2DI_LIGHT_FAR; k++) {
     const double n = rule_points[k], degree = (double)of->solution->order - 1;
-    const double most = 4 * (2 * n + 1) / of->allowed;
+    const double max = 4 * (2 * n + 1) / of->allowed;
     const double from = 2 * n > degree
-                            ? fmax(ellipse_of(2 * most * leaf->level, 2 * n),
-                                   ellipse_of(2 * most * leaf->varies, 2 * n - degree))
+                            ? fmax(ellipse_of(2 * max * leaf->level, 2 * n),
+                                   ellipse_of(2 * max * leaf->varies, 2 * n - degree))
                             : HUGE_VAL;
     far.from[k] = (float)fmax(from, HR2DI_NEAR_ELLIPSE);
   }
   return far;
 }
 
-hr2d_status hr2di_light_source_relax(hr2di_light_source *of, const double *most,
+hr2d_status hr2di_light_source_relax(hr2di_light_source *of, const double *max,
                                      hr2di_watch *watch) {
   const size_t bands = of->solution->bands;
   const hr2d_allocator alloc = of->leaves.alloc;
   double *merged = hr2di_alloc(&alloc, bands, sizeof *merged);
   if (!merged) return HR2D_ENOMEM;
-  double least = 1;
+  double min = 1;
   for (size_t b = 0; b < bands; b++) {
-    merged[b] = MERGED * most[b];
-    if (of->leaves.scale[b] > 0) least = fmin(least, most[b] / of->leaves.scale[b]);
+    merged[b] = MERGED * max[b];
+    if (of->leaves.scale[b] > 0) min = fmin(min, max[b] / of->leaves.scale[b]);
   }
   hr2di_leaves_clear(&of->leaves);
   hr2d_status status = hr2di_leaves_init(&of->leaves, of->solution, merged, watch);
   hr2di_alloc_free(&alloc, merged);
-  of->allowed = fmax(RULED * least, ROUNDING);
+  of->allowed = fmax(RULED * min, ROUNDING);
   if (!status) of->far = hr2di_alloc(&alloc, of->leaves.leaves, sizeof *of->far);
   if (!status && !of->far) status = HR2D_ENOMEM;
   for (size_t k = 0; k < of->leaves.leaves && !status; k++) {
@@ -249,7 +249,7 @@ static void add_error(hr2di_light_sum *sum, uint32_t patch, uint32_t element, hr
 
 /* The leaves of a stretch, from its right to its left.  Where two of them meet is rounded; they
    share the direction, so that all of the angle is divided among them. */
-static void add_front(hr2di_light_sum *sum, const hr2di_round_stretch *seen) {
+static void add_front(hr2di_light_sum *sum, const hr2di_polygon_arc *seen) {
   const hr2di_light_source *of = sum->of;
   const hr2d_segment at = of->scene->patch[seen->patch].scaled;
   const hr2d_point whole = hr2di_point_minus(at.b, at.a);
@@ -303,7 +303,7 @@ void hr2di_light_add_sun(hr2di_light_sum *sum, size_t band) {
   add_constant(sum, band, 2 * sun.irradiance, 1, to_sun(sun));
 }
 
-static void add_suns(hr2di_light_sum *sum, const hr2di_round_stretch *s) {
+static void add_suns(hr2di_light_sum *sum, const hr2di_polygon_arc *s) {
   for (size_t b = 0; b < sum->of->solution->bands; b++)
     if (hr2di_light_has_sun(sum->of, s->right, s->left, b)) hr2di_light_add_sun(sum, b);
 }
@@ -319,7 +319,7 @@ static void add_arc(hr2di_light_sum *sum, size_t piece, double from, double angl
 }
 
 /* What the pieces of the sky send beyond the background. */
-static void add_pieces(hr2di_light_sum *sum, const hr2di_round_stretch *s) {
+static void add_pieces(hr2di_light_sum *sum, const hr2di_polygon_arc *s) {
   const hr2di_sky *sky = &sum->of->scene->sky;
   const double begin = atan2(s->right.y, s->right.x), end = begin + s->angle;
   for (size_t k = 0; k < sky->pieces; k++) {
@@ -342,7 +342,7 @@ void hr2di_light_add_sky(hr2di_light_sum *sum, hr2d_point right, hr2d_point left
     add_constant(sum, b, factor * hr2d_scene_sky(sum->of->scene, bearing, b), angle, vector);
 }
 
-void hr2di_light_add(hr2di_light_sum *sum, const hr2di_round_stretch *s) {
+void hr2di_light_add(hr2di_light_sum *sum, const hr2di_polygon_arc *s) {
   const hr2di_light_source *of = sum->of;
   const size_t bands = of->solution->bands;
   if (s->patch != HR2DI_ROUND_SKY) {

@@ -5,7 +5,7 @@
 
 #include "base/legendre.h"
 #include "field/leaves.h"
-#include "field/round-view.h"
+#include "field/visibility-polygon.h"
 
 /* Gauss rules, of more points each. */
 enum { HR2DI_LIGHT_RULES = 15 };
@@ -40,9 +40,9 @@ hr2d_status hr2di_light_source_init(hr2di_light_source *of, const hr2d_solution 
                                     hr2di_watch *watch);
 void hr2di_light_source_clear(hr2di_light_source *of);
 
-/* From now on the field may have an error of `most` per band, of M, and π times that of Φ.
+/* From now on the field may have an error of `max` per band, of M, and π times that of Φ.
    HR2D_OK, HR2D_ENOMEM or the status of the watch. */
-hr2d_status hr2di_light_source_relax(hr2di_light_source *of, const double *most,
+hr2d_status hr2di_light_source_relax(hr2di_light_source *of, const double *max,
                                      hr2di_watch *watch);
 
 /* The patch of the solution that has the leaves of one of the scene, which may have more images
@@ -68,7 +68,7 @@ typedef struct hr2di_light_sum {
 } hr2di_light_sum;
 
 /* Adds a stretch of the view from x. */
-void hr2di_light_add(hr2di_light_sum *sum, const hr2di_round_stretch *s);
+void hr2di_light_add(hr2di_light_sum *sum, const hr2di_polygon_arc *s);
 
 /* Whether the sun of a band is seen in a direction from the right one on and before the left
    one; adds its light. */

@@ -33,7 +33,8 @@ typedef struct hr2di_touch {
 } hr2di_touch;
 
 /* Whether x, in triangle `at`, touches walls. */
-int hr2di_step_off(const hr2d_scene *scene, int32_t at, hr2d_point x, hr2di_touch *touch);
+int hr2di_offset_viewpoint(const hr2d_scene *scene, int32_t at, hr2d_point x,
+                           hr2di_touch *touch);
 
 /* The patch on a side of a wall at x, a point of it, or HR2DI_NOBODY. */
 uint32_t hr2di_patch_beside(const hr2d_scene *scene, hr2di_wall_side side, hr2d_point x);

@@ -54,7 +54,7 @@ static void show_common(const hr2di_quadrant *q, double from, double to, hr2di_f
 }
 
 static void show_quadrant(const hr2di_far_view *v, const hr2di_quadrant *q,
-                          const hr2di_round_stretch *s, hr2di_far_fn show, void *ctx) {
+                          const hr2di_polygon_arc *s, hr2di_far_fn show, void *ctx) {
   const hr2di_symmetry *all = &v->scene->symmetry;
   const hr2di_tail *t = &all->points;
   const int left_turn = hr2di_point_cross(q->out, q->up) > 0;
@@ -69,13 +69,13 @@ static void show_quadrant(const hr2di_far_view *v, const hr2di_quadrant *q,
                                  .weight = t->weight[k],
                                  .check = {t->check[0][k], t->check[1][k]},
                                  .half = t->half[k],
-                                 .late = 2 * k > all->copies,
+                                 .second_half = 2 * k > all->copies,
                                  .bearing = hr2di_quadrant_bearing(q)};
     show_common(q, from, from + s->angle, part, range, show, ctx);
   }
 }
 
-void hr2di_far_sky(const hr2di_far_view *v, const hr2di_round_stretch *s, hr2di_far_fn show,
+void hr2di_far_sky(const hr2di_far_view *v, const hr2di_polygon_arc *s, hr2di_far_fn show,
                    void *ctx) {
   for (int k = 0; k < v->quadrants; k++)
     if (v->quadrant[k].border > 0) show_quadrant(v, &v->quadrant[k], s, show, ctx);
@@ -133,10 +133,10 @@ static double off(const ray *r, hr2d_point p) {
    multiple of the period between its ends. */
 static int is_in_the_way(const ray *r, hr2d_segment s, double period) {
   double far[2] = {ahead(r, s.a), ahead(r, s.b)}, at[2] = {off(r, s.a), off(r, s.b)};
-  const double least = STARTS * fmax(fabs(far[0]), fabs(far[1]));
-  if (far[0] <= least && far[1] <= least) return 0;
+  const double min = STARTS * fmax(fabs(far[0]), fabs(far[1]));
+  if (far[0] <= min && far[1] <= min) return 0;
   for (int k = 0; k < 2; k++)
-    if (far[k] < least) at[k] += (at[1 - k] - at[k]) * (least - far[k]) / (far[1 - k] - far[k]);
+    if (far[k] < min) at[k] += (at[1 - k] - at[k]) * (min - far[k]) / (far[1 - k] - far[k]);
   return floor(at[0] / period) != floor(at[1] / period);
 }
 

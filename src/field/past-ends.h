@@ -4,7 +4,7 @@
 #ifndef HR2D_SRC_FIELD_PAST_ENDS_H
 #define HR2D_SRC_FIELD_PAST_ENDS_H
 
-#include "field/round-view.h"
+#include "field/visibility-polygon.h"
 
 /* A part of the view that stands for others, or is unknown. */
 typedef struct hr2di_far_part {
@@ -14,8 +14,8 @@ typedef struct hr2di_far_part {
   double half;                     /* the same from periods up to ½K, less those that follow */
   hr2d_point right, left;
   double angle;
-  double bearing; /* of the sky past the end */
-  int late;       /* of more than ½K periods */
+  double bearing;  /* of the sky past the end */
+  int second_half; /* of more than ½K periods */
 } hr2di_far_part;
 
 typedef void (*hr2di_far_fn)(void *ctx, const hr2di_far_part *part);
@@ -37,7 +37,7 @@ hr2d_point hr2di_far_home(const hr2d_scene *scene, hr2d_point x);
 
 /* Shows the parts of a stretch of sky that are in periods that stand for others, and those past
    the ends. */
-void hr2di_far_sky(const hr2di_far_view *v, const hr2di_round_stretch *s, hr2di_far_fn show,
+void hr2di_far_sky(const hr2di_far_view *v, const hr2di_polygon_arc *s, hr2di_far_fn show,
                    void *ctx);
 
 /* Where images are seen through gaps between others, what shows of them goes

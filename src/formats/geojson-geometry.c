@@ -69,7 +69,7 @@ typedef struct progress {
   int flat, deep;
 } progress;
 
-static size_t least_positions(const path *p) {
+static size_t min_positions(const path *p) {
   return p->role == LINE ? 2 : 4;
 }
 
@@ -100,12 +100,12 @@ static hr2d_status keep_position(hr2di_geojson *reader, const path *p, size_t k,
 static hr2d_status fail_count(hr2di_geojson *reader, const path *p, size_t count) {
   return hr2di_message_fail(reader->message, HR2D_ESYNTAX,
                             "%s: needs %zu positions or more, has %zu", p->place,
-                            least_positions(p), count);
+                            min_positions(p), count);
 }
 
 /* A line all of whose positions are one place is no more than a repeated position. */
 static hr2d_status check_kept(hr2di_geojson *reader, const path *p, const progress *at) {
-  if (p->role != LINE && at->kept < least_positions(p)) return fail_count(reader, p, at->kept);
+  if (p->role != LINE && at->kept < min_positions(p)) return fail_count(reader, p, at->kept);
   if (at->flat && at->deep)
     hr2di_notes_add(&reader->notes, HR2D_WARNING_ALTITUDE, "mixed", p->place,
                     "decimals have a point, not a comma");
@@ -124,7 +124,7 @@ static hr2d_status read_points(hr2di_geojson *reader, const path *p, size_t *cou
     return hr2di_message_fail(reader->message, HR2D_ESYNTAX,
                               "%s: coordinates: must be an array of positions, not %s",
                               p->place, hr2di_geojson_kind(p->positions));
-  if (n < least_positions(p)) return fail_count(reader, p, n);
+  if (n < min_positions(p)) return fail_count(reader, p, n);
   if (hr2di_alloc_reserve(reader->alloc, &reader->point, &reader->point_capacity, n,
                           sizeof *reader->point))
     return hr2di_message_fail(reader->message, HR2D_ENOMEM, "%s: out of memory", p->place);
@@ -208,8 +208,8 @@ static hr2d_status add_path(hr2di_geojson *reader, const path *p) {
       return hr2di_message_fail(reader->message, HR2D_ESCENE, "%s: the ring encloses no area",
                                 p->place);
     /* Counter-clockwise, fronts look into the ring. */
-    const int look_in = (p->role == OUTER) != reader->faces_out;
-    reverse = (area > 0) != look_in;
+    const int search_in = (p->role == OUTER) != reader->faces_out;
+    reverse = (area > 0) != search_in;
   }
   if (reader->is_mirror)
     return hr2di_geojson_add_mirror(reader, reader->point[0], reader->point[1]);

@@ -129,32 +129,32 @@ static int is_lonely(const json_t *properties, const char *key) {
 }
 
 /* Letters to change, add, leave out, or swap with the next one, between two names: at most
-   `most`, or most + 1. */
-static unsigned distance(const char *left, const char *right, unsigned most) {
+   `max`, or most + 1. */
+static unsigned distance(const char *left, const char *right, unsigned max) {
   if (!*left || !*right) {
     const size_t rest = strlen(left) + strlen(right);
-    return rest > most ? most + 1 : (unsigned)rest;
+    return rest > max ? max + 1 : (unsigned)rest;
   }
-  if (*left == *right) return distance(left + 1, right + 1, most);
-  if (most == 0) return 1;
-  unsigned least = distance(left + 1, right + 1, most - 1);
-  const unsigned without = distance(left + 1, right, most - 1),
-                 with = distance(left, right + 1, most - 1);
-  if (without < least) least = without;
-  if (with < least) least = with;
+  if (*left == *right) return distance(left + 1, right + 1, max);
+  if (max == 0) return 1;
+  unsigned min = distance(left + 1, right + 1, max - 1);
+  const unsigned without = distance(left + 1, right, max - 1),
+                 with = distance(left, right + 1, max - 1);
+  if (without < min) min = without;
+  if (with < min) min = with;
   if (left[0] == right[1] && left[1] == right[0]) {
-    const unsigned swapped = distance(left + 2, right + 2, most - 1);
-    if (swapped < least) least = swapped;
+    const unsigned swapped = distance(left + 2, right + 2, max - 1);
+    if (swapped < min) min = swapped;
   }
-  return least + 1;
+  return min + 1;
 }
 
 /* Short words are near to too many others: "site" to "side", "tower" to "power".  Who mistypes
    a word has its first letter right. */
 static int is_mistyped(const char *key, const char *name) {
   const size_t length = strlen(name);
-  const unsigned most = length < 6 ? 0 : length < 8 ? 1 : 2;
-  return most && key[0] == name[0] && distance(key, name, most) <= most;
+  const unsigned max = length < 6 ? 0 : length < 8 ? 1 : 2;
+  return max && key[0] == name[0] && distance(key, name, max) <= max;
 }
 
 /* Whether the feature has the property that a key was meant for. */

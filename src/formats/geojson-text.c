@@ -113,7 +113,7 @@ static size_t feed(void *buffer, size_t size, void *data) {
   if (some) memcpy(buffer, s->next, some);
   s->next += some;
   /* Half of the time of reading is spent here, the other half on the patches. */
-  s->watch->told.fraction = 0.5 * (double)(s->next - s->text) / (double)(s->end - s->text);
+  s->watch->report.fraction = 0.5 * (double)(s->next - s->text) / (double)(s->end - s->text);
   return hr2di_watch_work(s->watch, some / 4) ? (size_t)-1 : some;
 }
 

@@ -16,7 +16,7 @@ double hr2di_ellipse(hr2d_segment s, hr2d_point v) {
 
 /* The sum of the distances from a and b is convex along a line.  It is least where the line
    meets the segment from a to the mirror image of b. */
-double hr2di_ellipse_least(hr2d_segment s, hr2d_segment of) {
+double hr2di_ellipse_min(hr2d_segment s, hr2d_segment of) {
   const double dx = of.b.x - of.a.x, dy = of.b.y - of.a.y, square = dx * dx + dy * dy;
   const hr2d_point a = {s.a.x - of.a.x, s.a.y - of.a.y};
   const hr2d_point b = {s.b.x - of.a.x, s.b.y - of.a.y};

@@ -12,9 +12,9 @@
 double hr2di_ellipse(hr2d_segment s, hr2d_point v);
 
 /* The least hr2di_ellipse(s, v) over the points v of the segment `of`. */
-double hr2di_ellipse_least(hr2d_segment s, hr2d_segment of);
+double hr2di_ellipse_min(hr2d_segment s, hr2d_segment of);
 
-/* A pair is distant if hr2di_ellipse_least() is at least this, from either segment. */
+/* A pair is distant if hr2di_ellipse_min() is at least this, from either segment. */
 #define HR2DI_ELLIPSE_DISTANT 1.8
 
 /* The m at which ρ^−2p is `error`, p being `order`: a singularity need not be farther away for

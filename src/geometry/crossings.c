@@ -280,7 +280,7 @@ static hr2d_status make_rows(sweep *s) {
 }
 
 /* Prepares to pass over pairs of one star. */
-static hr2d_status look_for_stars(sweep *s) {
+static hr2d_status search_stars(sweep *s) {
   if (!s->stars || !s->stars->of) {
     s->stars = NULL;
     return HR2D_OK;
@@ -366,7 +366,7 @@ static hr2d_status sweep_over(sweep *s, const hr2d_segment *first, size_t stride
   hr2d_status status = s->spans && s->found ? HR2D_OK : HR2D_ENOMEM;
   if (!status) status = make_spans(s, first, stride);
   if (!status) status = make_rows(s);
-  if (!status) status = look_for_stars(s);
+  if (!status) status = search_stars(s);
   for (size_t k = 0; k < s->count && !status; k++) {
     status = find_behind(s, (uint32_t)k);
     if (!status) status = visit_found(s, visit, ctx);

@@ -40,7 +40,7 @@ typedef struct node {
   double key;
   hr2d_point at;
   size_t crossing; /* NONE for an end */
-  int settled;
+  int done;
 } node;
 
 typedef struct finder {
@@ -140,7 +140,7 @@ static hr2d_status make_nodes(finder *f) {
   return status;
 }
 
-static double apart(hr2d_point p, hr2d_point q) {
+static double distance_of(hr2d_point p, hr2d_point q) {
   return fmax(fabs(p.x - q.x), fabs(p.y - q.y));
 }
 
@@ -173,7 +173,7 @@ typedef struct choice {
 #define SHARED (-1)
 
 static void offer(const finder *f, const crossing *c, hr2d_point p, choice *best) {
-  const double distance = apart(p, c->at);
+  const double distance = distance_of(p, c->at);
   if (best->distance == SHARED || distance > c->window) return;
   const int shared = is_on(f, c->i, p) && is_on(f, c->j, p);
   if (!shared && (distance >= best->distance || !serves(f, c->i, p, c->reach) ||
@@ -206,7 +206,7 @@ static void offer_neighbours(const finder *f, const crossing *c, choice *best) {
   for (size_t k = first_node(f, key - width); k < f->nodes && f->node[k].key <= key + width;
        k++) {
     if (k % 16 == 0 && hr2di_watch_work(f->cuts->watch, 1)) return;
-    if (f->node[k].settled && apart(f->node[k].at, c->at) <= c->reach)
+    if (f->node[k].done && distance_of(f->node[k].at, c->at) <= c->reach)
       offer(f, c, f->node[k].at, best);
   }
 }
@@ -258,7 +258,7 @@ static hr2d_status settle(finder *f, const crossing *c) {
   offer_wall(f, c, c->j, &best);
   if (best.distance == HUGE_VAL) offer_neighbours(f, c, &best);
   f->node[c->node].at = best.at;
-  f->node[c->node].settled = 1;
+  f->node[c->node].done = 1;
   f->cuts->place[f->cuts->places++] = best.at;
   if (best.distance == SHARED) return HR2D_OK;
   cut(f, c->i, best.at);

@@ -57,14 +57,14 @@ static hr2d_status sort_ends(finder *f) {
 }
 
 /* *most becomes the size of the largest group. */
-static hr2d_status count_groups(finder *f, uint32_t *most) {
+static hr2d_status count_groups(finder *f, uint32_t *max) {
   hr2d_status status = HR2D_OK;
-  *most = 0;
+  *max = 0;
   for (size_t k = 0, end; k < 2 * f->count && !status; k = end) {
     for (end = k; end < 2 * f->count && hr2di_point_same(f->spoke[end].at, f->spoke[k].at);)
       end++;
     for (size_t m = k; m < end; m++) f->spoke[m].group = (uint32_t)(end - k);
-    if (end - k > *most) *most = (uint32_t)(end - k);
+    if (end - k > *max) *max = (uint32_t)(end - k);
     status = hr2di_watch_work(f->watch, 1 + (end - k) / 8);
   }
   return status;
@@ -159,10 +159,10 @@ hr2d_status hr2di_stars_init(hr2di_stars *stars, const hr2d_allocator *alloc,
   if (count < HR2DI_STAR_LEAST) return HR2D_OK;
   if (count > UINT32_MAX / 4) return HR2D_ENOMEM;
   f.spoke = hr2di_alloc(alloc, count, 2 * sizeof *f.spoke);
-  uint32_t most = 0;
+  uint32_t max = 0;
   hr2d_status status = f.spoke ? sort_ends(&f) : HR2D_ENOMEM;
-  if (!status) status = count_groups(&f, &most);
-  if (!status && most >= HR2DI_STAR_LEAST) {
+  if (!status) status = count_groups(&f, &max);
+  if (!status && max >= HR2DI_STAR_LEAST) {
     status = reserve(&f);
     if (!status) status = choose_groups(&f);
     if (!status) status = add_stars(&f);
@@ -191,9 +191,9 @@ void hr2di_stars_neighbours(const hr2di_stars *stars, uint32_t segment,
     for (uint32_t k = place;;) {
       const int wraps = step > 0 ? k + 1 == star->last : k == star->first;
       k = wraps ? (step > 0 ? star->first : star->last - 1) : (uint32_t)((int64_t)k + step);
-      const double apart = fabs(stars->ray[k].angle - own);
+      const double angle = fabs(stars->ray[k].angle - own);
       if (k == place) break;
       take(ctx, stars->ray[k].segment);
-      if (fmin(apart, TURN - apart) > star->near) break;
+      if (fmin(angle, TURN - angle) > star->near) break;
     }
 }

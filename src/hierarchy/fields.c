@@ -26,14 +26,14 @@ hr2d_status hr2d_hierarchy_divide(hr2d_hierarchy *hierarchy, uint32_t element, d
 }
 
 static hr2d_status carry(const hr2d_hierarchy *hierarchy, size_t bands, double *field,
-                         void (*way)(const hr2di_push_pull *, const double *, double *)) {
+                         void (*transfer)(const hr2di_push_pull *, const double *, double *)) {
   hr2di_push_pull trees;
   hr2di_watch watch;
   if (bands == 0) return HR2D_EINVAL;
   hr2di_scene_watch(hierarchy->scene, &watch, NULL, NULL, "fields");
   hr2d_status status = hr2di_push_pull_init(&trees, hierarchy, &hierarchy->alloc,
                                             hierarchy->order, bands, &watch);
-  if (!status) way(&trees, NULL, field);
+  if (!status) transfer(&trees, NULL, field);
   hr2di_push_pull_clear(&trees);
   return status ? status : hr2di_watch_status(&watch);
 }

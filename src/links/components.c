@@ -31,16 +31,16 @@ static void join_clusters(hr2di_components *c, const hr2di_clusters *clusters, s
 
 /* Joins what links of other shares join: each number learns the least one that any share knows
    of its component, until no share learns anything. */
-static hr2d_status join_shares(hr2di_components *c, const hr2d_linkset *links, double *least,
+static hr2d_status join_shares(hr2di_components *c, const hr2d_linkset *links, double *min,
                                size_t count, hr2d_status status) {
   double joined = 1;
-  if (!status && !least) status = HR2D_ENOMEM;
+  if (!status && !min) status = HR2D_ENOMEM;
   while (joined > 0 && !status) {
-    for (size_t k = 0; k < count; k++) least[k] = -(double)hr2di_component(c, k);
-    status = hr2di_share_combine(links->share, HR2D_OK, HR2D_COMBINE_MOST, least, count);
+    for (size_t k = 0; k < count; k++) min[k] = -(double)hr2di_component(c, k);
+    status = hr2di_share_combine(links->share, HR2D_OK, HR2D_COMBINE_MOST, min, count);
     joined = 0;
     for (size_t k = 0; k < count && !status; k++) {
-      const size_t other = (size_t)-least[k];
+      const size_t other = (size_t)-min[k];
       if (hr2di_component(c, k) == hr2di_component(c, other)) continue;
       join(c, k, other);
       joined = 1;
@@ -75,9 +75,9 @@ hr2d_status hr2di_components_init(hr2di_components *c, const hr2d_linkset *links
     }
   }
   if (!links->share) return status;
-  double *least = hr2di_alloc(&links->alloc, count, sizeof *least);
-  status = join_shares(c, links, least, count, status);
-  hr2di_alloc_free(&links->alloc, least);
+  double *min = hr2di_alloc(&links->alloc, count, sizeof *min);
+  status = join_shares(c, links, min, count, status);
+  hr2di_alloc_free(&links->alloc, min);
   return status;
 }
 

@@ -137,11 +137,11 @@ static void make_chunk(void *ctx, size_t number, size_t chunk) {
   if (w->status) atomic_store(&m->failed, 1);
 }
 
-static void describe(void *of, hr2d_progress *told) {
+static void describe(void *of, hr2d_progress *report) {
   const maker *m = of;
   const double part =
       (double)atomic_load(&m->done) / (double)(m->links->store.count - m->known);
-  told->fraction = part < 1 ? part : 1;
+  report->fraction = part < 1 ? part : 1;
 }
 
 static hr2d_status make_all(maker *m) {
@@ -180,7 +180,7 @@ static hr2d_status run(hr2d_linkset *links, hr2di_link_blocks *made, uint64_t kn
     worker *w = &m.worker[started];
     hr2di_watch_follow(&w->own, watch);
     status = hr2di_integrator_init(&w->work, links->hierarchy, alloc, made->order,
-                                   wanted->looks, started == 0 ? watch : &w->own);
+                                   wanted->beam_cache, started == 0 ? watch : &w->own);
     if (made->single) w->work.digits = HR2DI_SINGLE_DIGITS;
     if (!status && made->order > links->hierarchy->order)
       status = hr2di_integrator_points(&w->work, made->order + MORE, 1);

@@ -12,7 +12,7 @@
 
 #include "base/watch.h"
 #include "links/block-numbers.h"
-#include "visibility/looks.h"
+#include "visibility/beam-cache.h"
 
 typedef struct hr2di_link_blocks {
   size_t order;
@@ -39,10 +39,10 @@ void hr2di_link_blocks_move(hr2di_link_blocks *b, uint64_t to, uint64_t from, si
 
 /* The blocks that are wanted. */
 typedef struct hr2di_blocks_wanted {
-  size_t order;       /* above that of the hierarchy: for an account of errors, too */
-  int single;         /* numbers are floats */
-  hr2di_looks *looks; /* keeps what patches see; NULL: nothing is kept */
-  unsigned threads;   /* as in options; no bit depends on their number */
+  size_t order;                 /* above that of the hierarchy: for an account of errors, too */
+  int single;                   /* numbers are floats */
+  hr2di_beam_cache *beam_cache; /* keeps what patches see; NULL: nothing is kept */
+  unsigned threads;             /* as in options; no bit depends on their number */
 } hr2di_blocks_wanted;
 
 /* Whether all links of a set have such blocks. */

@@ -25,8 +25,8 @@ struct hr2d_linkset {
   hr2di_link_blocks blocks;  /* of links that were solved at an order above 1 */
   hr2d_share *share;         /* of a solve that these are the links of; NULL: all of it */
   hr2di_roots roots;         /* where a refinement begins; empty: at all pairs of patches */
-  unsigned char *sees_backs; /* per patch, see hr2di_seen_backs(); NULL: nobody has looked, or
-                                there are no backs to see */
+  unsigned char *sees_backs; /* per patch, see hr2di_back_visibility(); NULL: nobody has looked,
+                                or there are no backs to see */
   int directed;
   int solving;    /* a solve is under way, and may make blocks */
   double epsilon; /* of the last refinement; infinite before */

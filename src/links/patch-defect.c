@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Of several shares, areas are added up in bins: those of a patch, with the weights of images,
-   are hr2di_symmetry_most() times its length at most. */
+   are hr2di_symmetry_max() times its length at most. */
 #include "links/patch-defect.h"
 
 #include "base/alloc.h"
@@ -9,22 +9,22 @@
 #include "scene/scene-impl.h"
 
 static void add_area(const hr2d_linkset *links, hr2di_bin *bin, uint32_t element, double area,
-                     double most) {
+                     double max) {
   const hr2d_element *e = links->hierarchy->element;
   const size_t patch = hr2di_scene_original(links->hierarchy->scene, e[element].patch);
-  hr2di_bin_add(&bin[patch], hr2di_bin_scale(2 * most * e[patch].length), area);
+  hr2di_bin_add(&bin[patch], hr2di_bin_scale(2 * max * e[patch].length), area);
 }
 
 static hr2d_status sum_shares(const hr2d_linkset *links, hr2di_bin *bin, hr2di_sum *defect,
                               hr2di_watch *watch) {
   const size_t patches = links->hierarchy->scene->patches;
-  const double most = hr2di_symmetry_most(&links->hierarchy->scene->symmetry);
+  const double max = hr2di_symmetry_max(&links->hierarchy->scene->symmetry);
   hr2d_status status = bin ? HR2D_OK : HR2D_ENOMEM;
   for (uint64_t k = 0; k < links->store.count && !status; k++) {
     const hr2d_link link = hr2di_store_link(&links->store, k);
     if (k % 64 == 0) status = hr2di_watch_work(watch, 16);
-    add_area(links, bin, link.pair.first, link.exchange_area, most);
-    if (!links->directed) add_area(links, bin, link.pair.second, link.exchange_area, most);
+    add_area(links, bin, link.pair.first, link.exchange_area, max);
+    if (!links->directed) add_area(links, bin, link.pair.second, link.exchange_area, max);
   }
   status = hr2di_share_combine(links->share, status, HR2D_COMBINE_SUM, bin ? &bin->head : NULL,
                                2 * patches);

@@ -29,7 +29,7 @@ static inline uint32_t hr2di_row_slots(const hr2di_row_pieces *p, size_t row) {
 }
 
 /* The slot of the look round of a row that is cut. */
-static inline uint32_t hr2di_row_look(const hr2di_row_pieces *p, size_t row) {
+static inline uint32_t hr2di_row_trace_slot(const hr2di_row_pieces *p, size_t row) {
   return p->slot[row + 1] - 1;
 }
 

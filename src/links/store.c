@@ -58,7 +58,7 @@ static size_t slab_bytes(const hr2di_store *store, size_t bytes) {
   const uint64_t pages = store->held / 32 / HR2DI_LARGE_PAGE;
   const size_t some = pages < 1 ? 1 : pages < MOST_SLAB ? (size_t)pages : MOST_SLAB;
   const size_t size = some * HR2DI_LARGE_PAGE;
-  return store->most_slab && size > store->most_slab ? bytes : size;
+  return store->max_slab && size > store->max_slab ? bytes : size;
 }
 
 /* Memory for a chunk, or NULL. */

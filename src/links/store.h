@@ -52,9 +52,9 @@ typedef struct hr2di_store {
   int packs;   /* full chunks are packed; set before links are added */
   void **slab; /* where data of chunks are, one behind the other */
   size_t slabs, slab_capacity;
-  size_t size, used;  /* bytes of the last slab */
-  uint64_t held;      /* bytes of all */
-  uint64_t most_slab; /* bytes of a new slab, if not for one chunk; 0: as it is best */
+  size_t size, used; /* bytes of the last slab */
+  uint64_t held;     /* bytes of all */
+  uint64_t max_slab; /* bytes of a new slab, if not for one chunk; 0: as it is best */
 } hr2di_store;
 
 /* Adds links.  Returns HR2D_OK, or HR2D_ENOMEM when only some of them are added. */

@@ -34,9 +34,9 @@ typedef struct approach {
   hr2d_point at;
   double distance;
   uint32_t end, to;
-  int along; /* the other end of the patch is near, too */
-  int wide;  /* it is a gap only if it is a corner */
-  int apart; /* nobody is to be told, nor of others at this end */
+  int along;  /* the other end of the patch is near, too */
+  int wide;   /* it is a gap only if it is a corner */
+  int silent; /* nobody is to be told, nor of others at this end */
 } approach;
 
 typedef struct place {
@@ -109,38 +109,38 @@ static double corner_reach(const gaps *g, hr2d_segment s, hr2d_segment t) {
 
 /* Whether each of two patches is behind the other, as the sides of a thin plate are, or the
    walls of two rooms: what is between them has no light. */
-static int look_apart(hr2d_segment s, hr2d_segment t) {
+static int view_separately(hr2d_segment s, hr2d_segment t) {
   return hr2di_orient(s.a, s.b, t.a) <= 0 && hr2di_orient(s.a, s.b, t.b) <= 0 &&
          hr2di_orient(t.a, t.b, s.a) <= 0 && hr2di_orient(t.a, t.b, s.b) <= 0;
 }
 
 /* The end of a patch, beside another patch. */
-static hr2d_status look_at_end(gaps *g, uint32_t end, size_t j) {
+static hr2d_status examine_end(gaps *g, uint32_t end, size_t j) {
   const size_t i = end / 2;
   const hr2d_point p = end_at(g, end), q = end_at(g, end ^ 1);
-  const double d = hr2di_apart_from_point(g->s[j], p), most = fmin(g->reach[i], g->reach[j]);
+  const double d = hr2di_apart_from_point(g->s[j], p), max = fmin(g->reach[i], g->reach[j]);
   if (is_touch(g, i, j, d)) {
     g->touched[end] = 1;
     return HR2D_OK;
   }
-  if (d > fmax(most, corner_reach(g, g->s[i], g->s[j]))) return HR2D_OK;
+  if (d > fmax(max, corner_reach(g, g->s[i], g->s[j]))) return HR2D_OK;
   const double other = hr2di_apart_from_point(g->s[j], q);
   if (is_touch(g, i, j, other)) return HR2D_OK; /* a wedge: they meet there */
-  const int along = other <= most;
+  const int along = other <= max;
   if (hr2di_alloc_reserve(g->alloc, &g->approach, &g->capacity, g->approaches + 1,
                           sizeof *g->approach))
     return HR2D_ENOMEM;
   g->approach[g->approaches++] = (approach){
-      p, d, end, (uint32_t)j, along, d > most, along && look_apart(g->s[i], g->s[j])};
+      p, d, end, (uint32_t)j, along, d > max, along && view_separately(g->s[i], g->s[j])};
   return HR2D_OK;
 }
 
-static hr2d_status look_at_pair(void *ctx, size_t i, size_t j) {
+static hr2d_status examine_pair(void *ctx, size_t i, size_t j) {
   gaps *g = ctx;
   hr2d_status status = HR2D_OK;
   if (same_wall(g->s[i], g->s[j])) return HR2D_OK;
-  for (uint32_t e = 0; e < 2 && !status; e++) status = look_at_end(g, (uint32_t)(2 * i) + e, j);
-  for (uint32_t e = 0; e < 2 && !status; e++) status = look_at_end(g, (uint32_t)(2 * j) + e, i);
+  for (uint32_t e = 0; e < 2 && !status; e++) status = examine_end(g, (uint32_t)(2 * i) + e, j);
+  for (uint32_t e = 0; e < 2 && !status; e++) status = examine_end(g, (uint32_t)(2 * j) + e, i);
   return status;
 }
 
@@ -157,13 +157,13 @@ static hr2d_status reserve(gaps *g) {
 static hr2d_status scale(gaps *g) {
   const hr2di_patch *patch = g->lint->scene->patch;
   hr2d_status status = HR2D_OK;
-  double most = 0;
+  double max = 0;
   for (size_t k = 0; k < g->count && !status; k++) {
     const hr2d_segment s = patch[k].given;
     status = hr2di_watch_work(g->lint->watch, 1);
-    most = fmax(most, fmax(fmax(fabs(s.a.x), fabs(s.a.y)), fmax(fabs(s.b.x), fabs(s.b.y))));
+    max = fmax(max, fmax(fmax(fabs(s.a.x), fabs(s.a.y)), fmax(fabs(s.b.x), fabs(s.b.y))));
   }
-  g->exponent = ilogb(most);
+  g->exponent = ilogb(max);
   for (size_t k = 0; k < g->count && !status; k++) {
     const hr2d_segment s = patch[k].given;
     status = hr2di_watch_work(g->lint->watch, 1);
@@ -190,7 +190,7 @@ static hr2d_status sweep(gaps *g) {
       hr2di_stars_init(&stars, g->alloc, g->s, g->count, sizeof *g->s, g->lint->watch);
   if (!status)
     status = hr2di_crossings_find(g->alloc, g->box, g->count, sizeof *g->box, &stars,
-                                  look_at_pair, g, g->lint->watch);
+                                  examine_pair, g, g->lint->watch);
   hr2di_stars_clear(&stars);
   return status;
 }
@@ -372,7 +372,7 @@ static hr2d_status show_all(const gaps *g, hr2d_warning_code code) {
   for (size_t k = 0; k < g->approaches && !status; k++) {
     const approach *a = &g->approach[k];
     status = hr2di_watch_work(g->lint->watch, 1);
-    if (status || code_of(g, a) != code || a->apart || is_shown(g, k) ||
+    if (status || code_of(g, a) != code || a->silent || is_shown(g, k) ||
         !is_told(g->lint->scene, a))
       continue;
     status = hr2di_watch_work(g->lint->watch, TEXT);

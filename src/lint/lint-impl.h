@@ -28,8 +28,8 @@ typedef struct hr2di_lint_patches {
   size_t count, patch[HR2DI_LINT_PLACES]; /* the first of them */
 } hr2di_lint_patches;
 
-void hr2di_lint_add(hr2di_lint_patches *told, size_t patch);
-hr2di_lint_places hr2di_lint_labels(const hr2d_scene *scene, const hr2di_lint_patches *told);
+void hr2di_lint_add(hr2di_lint_patches *report, size_t patch);
+hr2di_lint_places hr2di_lint_labels(const hr2d_scene *scene, const hr2di_lint_patches *report);
 
 /* Gives a warning its text, as printf would, and shows it.  Returns the status of the visitor.
  */

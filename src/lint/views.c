@@ -6,8 +6,8 @@
 #include "base/alloc.h"
 #include "lint/lint-impl.h"
 #include "scene/with-plane.h"
-#include "visibility/seen-backs.h"
-#include "visibility/sees-anything.h"
+#include "visibility/any-visible.h"
+#include "visibility/back-visibility.h"
 
 /* The part of what the middle of a front sees from which on a back is told.  Through a gap that
    another warning tells, less is seen. */
@@ -22,7 +22,7 @@ typedef struct backs {
 typedef struct views {
   const hr2di_lint *lint;
   const hr2d_scene *in; /* with a plane */
-  hr2di_viewer *viewer;
+  hr2di_point_viewer *viewer;
   int sky, lit;
   backs back;
   hr2di_lint_patches nothing; /* they see nothing */
@@ -64,14 +64,14 @@ static int has_other_side(const views *v, size_t patch, int longer) {
    any, backs are asked for all. */
 static hr2d_status find_light(const views *v, size_t patch, int *has) {
   *has = !v->lit || emits(v->in, patch) || (!v->sky && hr2di_scene_lit(v->lint->scene, patch));
-  return *has || !v->sky ? HR2D_OK : hr2di_sees_anything(v->viewer, patch, HR2DI_LOOK_SKY, has);
+  return *has || !v->sky ? HR2D_OK : hr2di_any_visible(v->viewer, patch, HR2DI_ANY_SKY, has);
 }
 
 static hr2d_status find_backs(views *v) {
   const hr2d_scene *scene = v->lint->scene;
   const size_t cell = hr2di_scene_cell(scene);
   unsigned char *sees = NULL;
-  hr2d_status status = hr2di_seen_backs(v->in, &scene->alloc, 1, &sees, v->lint->watch);
+  hr2d_status status = hr2di_back_visibility(v->in, &scene->alloc, 1, &sees, v->lint->watch);
   if (status || !sees) return status;
   v->back.viewer = hr2di_alloc(&scene->alloc, cell, sizeof *v->back.viewer);
   v->back.viewers = hr2di_alloc_zero(&scene->alloc, cell, sizeof *v->back.viewers);
@@ -95,10 +95,10 @@ static int is_back_seen(const views *v, size_t patch) {
   return v->back.viewers && v->back.viewers[patch];
 }
 
-static hr2d_warning warning_of(hr2d_warning_code code, const hr2di_lint_patches *told) {
+static hr2d_warning warning_of(hr2d_warning_code code, const hr2di_lint_patches *report) {
   return (hr2d_warning){.code = code,
-                        .patches = told->count < 2 ? told->count : 2,
-                        .patch = {told->patch[0], told->patch[1]}};
+                        .patches = report->count < 2 ? report->count : 2,
+                        .patch = {report->patch[0], report->patch[1]}};
 }
 
 static hr2d_status warn_of_dark(const views *v) {
@@ -139,14 +139,14 @@ static hr2d_status warn_of_nothing(const views *v) {
 }
 
 /* Of patches without light the other warnings tell, unless nothing has light. */
-static hr2d_status look_from(views *v, size_t patch) {
+static hr2d_status view_from(views *v, size_t patch) {
   const hr2d_scene *scene = v->lint->scene;
   int sees = 1;
   hr2d_status status = hr2di_watch_work(v->lint->watch, 1);
   const int asked = v->sky || emits(scene, patch) || (!v->lit && is_back_seen(v, patch));
   if (!status && asked && !(v->sky && has_other_side(v, patch, 0)))
-    status = hr2di_sees_anything(v->viewer, patch,
-                                 HR2DI_LOOK_FRONTS | (v->sky ? HR2DI_LOOK_SKY : 0), &sees);
+    status = hr2di_any_visible(v->viewer, patch,
+                               HR2DI_ANY_FRONTS | (v->sky ? HR2DI_ANY_SKY : 0), &sees);
   if (!status && !sees) {
     hr2di_lint_add(&v->nothing, patch);
     return HR2D_OK;
@@ -162,7 +162,7 @@ static hr2d_status warn_of_no_sky(views *v) {
   int sees = !v->sky;
   for (size_t k = 0; k < cell && !sees && !status; k++) {
     status = hr2di_watch_work(v->lint->watch, 1);
-    if (!status) status = hr2di_sees_anything(v->viewer, k, HR2DI_LOOK_SKY, &sees);
+    if (!status) status = hr2di_any_visible(v->viewer, k, HR2DI_ANY_SKY, &sees);
   }
   if (status || sees) return status;
   v->blind = 1;
@@ -173,10 +173,10 @@ static hr2d_status warn_of_no_sky(views *v) {
       "inside; write \"faces\": \"out\" for what is seen from outside");
 }
 
-static hr2d_status look(views *v) {
+static hr2d_status examine(views *v) {
   hr2d_status status = find_backs(v);
   for (size_t k = 0; k < hr2di_scene_cell(v->lint->scene) && !status; k++)
-    status = look_from(v, k);
+    status = view_from(v, k);
   if (!status) status = warn_of_nothing(v);
   return status ? status : warn_of_no_sky(v);
 }
@@ -194,11 +194,11 @@ hr2d_status hr2di_lint_views(const hr2di_lint *lint, int *blind) {
   v.in = &w.scene;
   if (!status) status = warn_of_dark(&v);
   if (!status && w.scene.parts.wanted) {
-    status = hr2di_viewer_create(&w.scene, &scene->alloc, lint->watch, &v.viewer);
-    if (!status) status = look(&v);
+    status = hr2di_point_viewer_create(&w.scene, &scene->alloc, lint->watch, &v.viewer);
+    if (!status) status = examine(&v);
     *blind = v.blind;
   }
-  hr2di_viewer_destroy(v.viewer);
+  hr2di_point_viewer_destroy(v.viewer);
   hr2di_alloc_free(&scene->alloc, v.back.viewer);
   hr2di_alloc_free(&scene->alloc, v.back.viewers);
   hr2di_with_plane_clear(&w);

@@ -29,18 +29,18 @@ hr2di_lint_places hr2di_lint_places_of(const char *const *name, size_t names, si
   return p;
 }
 
-void hr2di_lint_add(hr2di_lint_patches *told, size_t patch) {
-  if (told->count < HR2DI_LINT_PLACES) told->patch[told->count] = patch;
-  told->count++;
+void hr2di_lint_add(hr2di_lint_patches *places, size_t patch) {
+  if (places->count < HR2DI_LINT_PLACES) places->patch[places->count] = patch;
+  places->count++;
 }
 
-hr2di_lint_places hr2di_lint_labels(const hr2d_scene *scene, const hr2di_lint_patches *told) {
+hr2di_lint_places hr2di_lint_labels(const hr2d_scene *scene, const hr2di_lint_patches *places) {
   hr2di_label label[HR2DI_LINT_PLACES];
   const char *name[HR2DI_LINT_PLACES];
   size_t k = 0;
-  for (; k < told->count && k < HR2DI_LINT_PLACES; k++) {
-    label[k] = hr2di_patch_label(scene, told->patch[k]);
+  for (; k < places->count && k < HR2DI_LINT_PLACES; k++) {
+    label[k] = hr2di_patch_label(scene, places->patch[k]);
     name[k] = label[k].text;
   }
-  return hr2di_lint_places_of(name, k, told->count);
+  return hr2di_lint_places_of(name, k, places->count);
 }

@@ -18,8 +18,8 @@ static double distance_for(const hr2d_element *e) {
 
 static int is_separate(const hr2d_element *i, const hr2d_element *j, int partial) {
   const hr2d_segment s = {i->a, i->b}, t = {j->a, j->b};
-  return !partial && hr2di_ellipse_least(s, t) >= distance_for(i) &&
-         hr2di_ellipse_least(t, s) >= distance_for(j) &&
+  return !partial && hr2di_ellipse_min(s, t) >= distance_for(i) &&
+         hr2di_ellipse_min(t, s) >= distance_for(j) &&
          hr2di_facing_of(&s, &t) == HR2DI_FACING_FULL;
 }
 

@@ -8,8 +8,8 @@
 #ifndef HR2D_SRC_MESH_EVENTS_IMPL_H
 #define HR2D_SRC_MESH_EVENTS_IMPL_H
 
+#include "beams/triangular-expansion.h"
 #include "scene/scene-impl.h"
-#include "sight/triangular-expansion.h"
 
 #define HR2DI_NO_VERTEX UINT32_MAX
 

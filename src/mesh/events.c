@@ -94,7 +94,7 @@ static int reflects(const hr2d_scene *scene, size_t patch) {
 }
 
 /* Where patches of one side meet there is something to see on that side only. */
-static hr2d_status look_from_joints(finder *f, hr2di_wall_side side) {
+static hr2d_status view_from_joints(finder *f, hr2di_wall_side side) {
   const hr2di_side_part *part = f->scene->parts.part;
   const hr2di_parts of = f->scene->parts.of_side[side].parts;
   hr2d_status status = HR2D_OK;
@@ -104,10 +104,10 @@ static hr2d_status look_from_joints(finder *f, hr2di_wall_side side) {
 }
 
 /* Looks from one of so many origins. */
-typedef hr2d_status look_fn(finder *f, size_t origin);
+typedef hr2d_status trace_fn(finder *f, size_t origin);
 
 /* Looks from all origins; each share from a run of them. */
-static hr2d_status look_from_all(finder *f, size_t origins, look_fn *look) {
+static hr2d_status trace_from_all(finder *f, size_t origins, trace_fn *trace) {
   const hr2d_share *share = f->share;
   const size_t before = f->list.count;
   hr2d_status status = HR2D_OK;
@@ -116,36 +116,36 @@ static hr2d_status look_from_all(finder *f, size_t origins, look_fn *look) {
     const size_t from = hr2di_share_part(origins, share->number, share->count);
     const size_t to = hr2di_share_part(origins, share->number + 1, share->count);
     f->list.in_part = 1;
-    for (size_t k = from; k < to && !status; k++) status = look(f, k);
+    for (size_t k = from; k < to && !status; k++) status = trace(f, k);
     if (!status) status = hr2di_watch_status(f->watch);
     status = hr2di_event_list_collect(&f->list, f->share, status, before, &again);
   }
-  for (size_t k = 0; k < origins && again && !status; k++) status = look(f, k);
+  for (size_t k = 0; k < origins && again && !status; k++) status = trace(f, k);
   return status;
 }
 
-static hr2d_status look_from_side(finder *f, hr2di_wall_side s) {
+static hr2d_status view_from_side(finder *f, hr2di_wall_side s) {
   const hr2di_triangulation *t = &f->scene->plane.triangulation;
   const int32_t h = t->edge[s >> 1].half_edge[s & 1];
   const hr2d_status status = hr2di_watch_work(f->watch, 1);
   if (status || t->triangle[h >> 2].across[h & 3] != ~(int32_t)s) return status;
   const hr2d_status looked = hr2di_event_beams_from_vertex(&f->beams, s);
-  return looked ? looked : look_from_joints(f, s);
+  return looked ? looked : view_from_joints(f, s);
 }
 
 /* Generation 1: all lines through ends of patches, from sides and then along walls. */
-static hr2d_status look_from_end(finder *f, size_t k) {
+static hr2d_status view_from_end(finder *f, size_t k) {
   const size_t sides = 2 * f->scene->plane.triangulation.edges;
-  if (k < sides) return look_from_side(f, (hr2di_wall_side)k);
+  if (k < sides) return view_from_side(f, (hr2di_wall_side)k);
   const size_t end = k - sides;
   return hr2di_event_beams_along_wall(&f->beams, (uint32_t)(end / 2), (int)(end % 2));
 }
 
-static hr2d_status look_from_ends(finder *f) {
+static hr2d_status view_from_ends(finder *f) {
   f->generation = 1;
-  return look_from_all(
+  return trace_from_all(
       f, 2 * f->scene->plane.triangulation.edges + 2 * (size_t)f->scene->walls.walls,
-      look_from_end);
+      view_from_end);
 }
 
 /* The part of a patch at a point of its line. */
@@ -183,7 +183,7 @@ static hr2d_status find_origins(finder *f, unsigned generation) {
   return status;
 }
 
-static hr2d_status look_from_event(finder *f, size_t k) {
+static hr2d_status view_from_event(finder *f, size_t k) {
   const candidate c = f->origin[k];
   const hr2d_point at = hr2di_point_at(f->scene->patch[c.event.patch].scaled, c.event.at);
   f->from = &f->origin[k];
@@ -194,14 +194,14 @@ static hr2d_status look_from_event(finder *f, size_t k) {
 }
 
 /* A later generation: all lines through events of the one before and ends of walls. */
-static hr2d_status look_from_events(finder *f, unsigned generation) {
+static hr2d_status view_from_events(finder *f, unsigned generation) {
   const hr2d_status status = find_origins(f, generation - 1);
   f->generation = generation;
-  return status ? status : look_from_all(f, f->origins, look_from_event);
+  return status ? status : trace_from_all(f, f->origins, view_from_event);
 }
 
 /* B jumps at a border of sunlight as it does at the end of a patch. */
-static hr2d_status look_from_borders(finder *f) {
+static hr2d_status view_from_borders(finder *f) {
   const hr2di_sunlight *l = &f->scene->sunlight;
   hr2d_status status = HR2D_OK;
   for (size_t k = 0; k < l->borders && !status; k++) {
@@ -259,13 +259,13 @@ static hr2d_status find(finder *f, unsigned generations) {
   f->beams.take = take;
   f->beams.ctx = f;
   if (!status) status = add_borders(f);
-  if (!status && generations > 0) status = look_from_ends(f);
-  if (!status && generations > 0) status = look_from_borders(f);
+  if (!status && generations > 0) status = view_from_ends(f);
+  if (!status && generations > 0) status = view_from_borders(f);
   if (!status) status = add_kinks(f);
   if (!status && generations > 0) status = add_feet(f);
   if (!status) status = hr2di_event_list_settle(&f->list);
   for (unsigned g = 2; g <= generations && !status; g++) {
-    status = look_from_events(f, g);
+    status = view_from_events(f, g);
     if (!status && f->origins == 0) break;
     if (!status) status = hr2di_event_list_settle(&f->list);
   }

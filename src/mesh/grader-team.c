@@ -21,7 +21,7 @@ typedef struct found {
 typedef struct worker {
   hr2di_grader g; /* with the arrays of the patch under way */
   hr2di_grading grading;
-  hr2di_seen_ends seen;
+  hr2di_visible_vertices seen;
   hr2di_watch own; /* but the calling thread has that of the grading */
   hr2d_status status;
 } worker;
@@ -49,13 +49,13 @@ static void exchange(hr2di_grader *g, found *f) {
   *f = kept;
 }
 
-static void look(void *ctx, size_t number, size_t task) {
+static void trace(void *ctx, size_t number, size_t task) {
   team *t = ctx;
   worker *w = &t->worker[number];
   const uint32_t patch = t->first + (uint32_t)task;
   if (w->status || atomic_load(&t->failed) || !w->g.steps->divides(&w->g, patch)) return;
   exchange(&w->g, &t->found[task]);
-  w->status = w->g.steps->look(&w->g, patch);
+  w->status = w->g.steps->trace(&w->g, patch);
   exchange(&w->g, &t->found[task]);
   if (w->status) atomic_store(&t->failed, 1);
 }
@@ -63,7 +63,7 @@ static void look(void *ctx, size_t number, size_t task) {
 static hr2d_status do_band(team *t, size_t count) {
   hr2di_grader *g = t->g;
   hr2d_status status = HR2D_OK;
-  hr2di_team_run(t->workers, count, look, t, g->grading->watch);
+  hr2di_team_run(t->workers, count, trace, t, g->grading->watch);
   for (size_t k = 0; k < t->workers && !status; k++) status = t->worker[k].status;
   for (size_t k = 0; k < count && !status; k++) {
     const uint32_t patch = t->first + (uint32_t)k;
@@ -88,8 +88,8 @@ static hr2d_status hire(team *t, size_t k) {
   w->g.marks = w->g.mark_capacity = 0;
   w->g.waits = 1;
   w->g.seen = g->seen ? &w->seen : NULL;
-  return g->seen ? hr2di_seen_ends_init(&w->seen, g->h->scene, g->grading->looks, &g->h->alloc,
-                                        w->grading.watch)
+  return g->seen ? hr2di_visible_vertices_init(&w->seen, g->h->scene, g->grading->beam_cache,
+                                               &g->h->alloc, w->grading.watch)
                  : HR2D_OK;
 }
 
@@ -99,7 +99,7 @@ static void clear(team *t) {
     worker *w = &t->worker[k];
     if (w->g.survey.exponent > 0 && w->g.survey.exponent < t->g->survey.exponent)
       t->g->survey.exponent = w->g.survey.exponent;
-    hr2di_seen_ends_clear(&w->seen);
+    hr2di_visible_vertices_clear(&w->seen);
   }
   for (size_t k = 0; k < BAND; k++) {
     hr2di_alloc_free(alloc, t->found[k].near.point);

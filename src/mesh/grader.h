@@ -5,7 +5,7 @@
 
 #include "mesh/mesh-grading.h"
 #include "mesh/mirror-images.h"
-#include "mesh/seen-ends.h"
+#include "mesh/visible-vertices.h"
 
 /* An end of a patch. */
 typedef struct hr2di_grading_vertex {
@@ -29,7 +29,7 @@ typedef struct hr2di_grader hr2di_grader;
 typedef struct hr2di_grader_steps {
   int (*divides)(const hr2di_grader *g, uint32_t patch); /* whether its elements are divided */
   /* Finds the marks and the near points of a patch; depends on no other patch's elements. */
-  hr2d_status (*look)(hr2di_grader *g, uint32_t patch);
+  hr2d_status (*trace)(hr2di_grader *g, uint32_t patch);
   /* Divides the elements of a patch that has looked, with what it has found in `g`. */
   hr2d_status (*divide)(hr2di_grader *g, uint32_t patch);
 } hr2di_grader_steps;
@@ -40,12 +40,12 @@ struct hr2di_grader {
   const hr2di_grading *grading;
   hr2di_grading_vertex *vertex; /* by x */
   size_t vertices;
-  uint32_t *under;          /* for the start and the end of each patch: 1 + the patch on whose
-                               front, between its ends, it stands, or 0 */
-  hr2di_image_points near;  /* points in front of the current patch, and near to it: ends of
-                               other patches that it sees, and mirror images */
-  hr2di_seen_ends *seen;    /* NULL: nothing is in the way of anything */
-  hr2di_grading_mark *mark; /* of the current patch, by place */
+  uint32_t *under;         /* for the start and the end of each patch: 1 + the patch on whose
+                              front, between its ends, it stands, or 0 */
+  hr2di_image_points near; /* points in front of the current patch, and near to it: ends of
+                              other patches that it sees, and mirror images */
+  hr2di_visible_vertices *seen; /* NULL: nothing is in the way of anything */
+  hr2di_grading_mark *mark;     /* of the current patch, by place */
   size_t marks, mark_capacity;
   int waits;      /* what `under` is to be waits in `feet`, as other threads read it */
   uint32_t *feet; /* places in `under` that are to have the current patch */

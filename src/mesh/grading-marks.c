@@ -97,7 +97,7 @@ static hr2di_grading_mark grade_corner(hr2di_grader *g, double cosine, double si
                                         : (unsigned)ceil(HR2DI_CHOICE_QUARTERS / slope)};
   if (!(strength > g->target)) return m;
   g->survey.exponent = fmin(g->survey.exponent, gamma);
-  if (g->grading->flat) return m;
+  if (g->grading->no_corner_grading) return m;
   m.depth += (unsigned)fmin(fmax(ceil(digits - 2 * log2(p) + 1.5), 2), DEEPEST);
   return m;
 }
@@ -202,12 +202,12 @@ static hr2d_status place(hr2di_grader *g, uint32_t patch, uint32_t number) {
   const double above = hr2di_orient(s.a, s.b, v->at) / square;
   const double ux = s.b.x - s.a.x, uy = s.b.y - s.a.y;
   const double at = ((v->at.x - s.a.x) * ux + (v->at.y - s.a.y) * uy) / square;
-  const double least = fmin(ON_LINE, HR2DI_TOUCH / p->length);
-  if (v->inside) return above > least ? add_near(g, s, v->at) : HR2D_OK;
+  const double min = fmin(ON_LINE, HR2DI_TOUCH / p->length);
+  if (v->inside) return above > min ? add_near(g, s, v->at) : HR2D_OK;
   const int sees =
-      above > least && (!g->seen || hr2di_seen_ends_has(g->seen, v->patch, v->last));
+      above > min && (!g->seen || hr2di_visible_vertices_has(g->seen, v->patch, v->last));
   if (sees) return add_near(g, s, v->at);
-  if (fabs(above) > least) return place_touching(g, patch, v, above, at);
+  if (fabs(above) > min) return place_touching(g, patch, v, above, at);
   if (at < -ON_LINE || at > 1 + ON_LINE)
     return rises(g->h->scene, patch, v) ? add_near(g, s, v->at) : HR2D_OK;
   const hr2di_grading_mark mark = grade_at(g, patch, v, at);

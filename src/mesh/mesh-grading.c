@@ -12,7 +12,7 @@
 #include "geometry/bernstein-ellipse.h"
 #include "mesh/grader.h"
 #include "scene/scene-impl.h"
-#include "solve/outside.h"
+#include "solve/external-irradiance.h"
 
 /* Elements are no shorter than this part of their patch, and than so many roundings of its
    coordinates: then their lengths are known to 0.1 %. */
@@ -66,18 +66,18 @@ static double sort_near(hr2di_grader *g, part *e) {
   const hr2d_element *element = &g->h->element[e->element];
   const hr2d_segment s = {element->a, element->b};
   hr2d_point *point = g->near.point;
-  double least = HR2DI_GRADING_FAR;
+  double min = HR2DI_GRADING_FAR;
   size_t near = 0;
   for (size_t k = 0; k < e->near; k++) {
     const hr2d_point p = point[k];
     const double ellipse = hr2di_ellipse(s, p);
     if (!(ellipse < HR2DI_GRADING_FAR)) continue;
-    least = fmin(least, ellipse);
+    min = fmin(min, ellipse);
     point[k] = point[near];
     point[near++] = p;
   }
   e->near = near;
-  return least;
+  return min;
 }
 
 /* Where an element is divided towards a mark, as a part of it; 0: nowhere. */
@@ -88,15 +88,14 @@ static double cut_towards(const hr2di_grader *g, const part *e,
   const int touches = from <= margin || to <= margin;
   /* An event may keep an element from touching a corner that it is near to. */
   const int near = mark->depth > 0 && from + to < fmin(g->distance, BEHIND) * size;
-  const double least = 1.001 * ldexp(1, -(int)mark->depth);
-  if (!(touches || near) || !(size > least)) return 0;
-  if (!touches || 0.5 * size <= least || size > 1.001 * ldexp(1, -(int)mark->halves))
-    return 0.5;
+  const double min = 1.001 * ldexp(1, -(int)mark->depth);
+  if (!(touches || near) || !(size > min)) return 0;
+  if (!touches || 0.5 * size <= min || size > 1.001 * ldexp(1, -(int)mark->halves)) return 0.5;
   return from <= to ? QUARTER : 1 - QUARTER;
 }
 
 /* Where an element is divided, as a part of it; 0: nowhere. */
-static double cut_of(const hr2di_grader *g, const part *e, double least) {
+static double cut_of(const hr2di_grader *g, const part *e, double min) {
   const double size = e->to - e->from, margin = 4 * g->shortest;
   if (size < g->shortest || !hr2di_element_divisible(g->h, e->element)) return 0;
   const double reach = g->distance * size + margin;
@@ -104,7 +103,7 @@ static double cut_of(const hr2di_grader *g, const part *e, double least) {
   for (size_t k = first_mark(g, e->from - reach);
        k < g->marks && g->mark[k].at <= e->to + reach && cut == 0; k++)
     cut = cut_towards(g, e, &g->mark[k]);
-  return cut > 0 ? cut : least < g->distance ? 0.5 : 0;
+  return cut > 0 ? cut : min < g->distance ? 0.5 : 0;
 }
 
 static void divide_at(hr2di_grader *g, uint32_t element, double cut) {
@@ -126,10 +125,10 @@ static int matters(const hr2di_grader *g, const part *e) {
 static hr2d_status divide(hr2di_grader *g, part *e, int *divided) {
   hr2d_hierarchy *h = g->h;
   const hr2di_grading_mark *inside = mark_inside(g, e);
-  const double least = sort_near(g, e);
-  const double cut = inside ? 0 : cut_of(g, e, least);
+  const double min = sort_near(g, e);
+  const double cut = inside ? 0 : cut_of(g, e, min);
   *divided = h->element[e->element].child || inside || cut > 0;
-  if (!*divided && matters(g, e)) g->survey.ellipse = fmin(g->survey.ellipse, least);
+  if (!*divided && matters(g, e)) g->survey.ellipse = fmin(g->survey.ellipse, min);
   if (!*divided || h->element[e->element].child) return HR2D_OK;
   if (g->grading->max_elements && h->elements + 2 > g->grading->max_elements)
     return HR2D_EMAX_ELEMENTS;
@@ -156,10 +155,10 @@ static void aim(hr2di_grader *g, uint32_t patch) {
   g->shortest = hr2di_grading_shortest(&g->h->scene->patch[patch]);
 }
 
-static hr2d_status look(hr2di_grader *g, uint32_t patch) {
+static hr2d_status trace(hr2di_grader *g, uint32_t patch) {
   aim(g, patch);
   g->near.count = g->marks = g->feet_count = 0;
-  hr2d_status status = g->seen ? hr2di_seen_ends_look(g->seen, patch) : HR2D_OK;
+  hr2d_status status = g->seen ? hr2di_visible_vertices_look(g->seen, patch) : HR2D_OK;
   if (!status) status = hr2di_grading_look_around(g, patch);
   return status ? status
                 : hr2di_images_add(g->h->scene, patch, HR2DI_GRADING_FAR, g->seen, &g->near,
@@ -194,8 +193,8 @@ static hr2d_status divide_patch(hr2di_grader *g, uint32_t patch) {
    points of a rule, which kinks disturb. */
 static hr2d_status find_backs(hr2di_grader *g) {
   const hr2d_scene *scene = g->h->scene;
-  g->all = hr2di_outside_has_pieces(scene);
-  return hr2di_outside_wants_sky(scene) && !g->all
+  g->all = hr2di_external_has_pieces(scene);
+  return hr2di_external_wants_sky(scene) && !g->all
              ? hr2di_side_parts_find_backs(scene, &g->all, g->grading->watch)
              : HR2D_OK;
 }
@@ -240,13 +239,13 @@ hr2d_status hr2di_grading_survey(const hr2d_scene *scene, const hr2di_grading *g
 hr2d_status hr2di_grading_apply(hr2d_hierarchy *hierarchy, const hr2di_grading *grading,
                                 hr2di_survey *survey) {
   const hr2d_scene *scene = hierarchy->scene;
-  static const hr2di_grader_steps steps = {divides, look, divide_patch};
+  static const hr2di_grader_steps steps = {divides, trace, divide_patch};
   hr2di_grader g = {.steps = &steps,
                     .h = hierarchy,
                     .grading = grading,
                     .survey = {1, HR2DI_GRADING_FAR},
                     .target = 1};
-  hr2di_seen_ends seen = {0};
+  hr2di_visible_vertices seen = {0};
   hr2d_status status = hr2di_grading_list_vertices(&g);
   for (uint32_t k = 0; k < scene->patches && !status; k++) {
     status =
@@ -256,8 +255,8 @@ hr2d_status hr2di_grading_apply(hr2d_hierarchy *hierarchy, const hr2di_grading *
   if (!status) status = find_backs(&g);
   if (!status && scene->effect[HR2D_EFFECT_OCCLUSION].on) {
     g.seen = &seen;
-    status =
-        hr2di_seen_ends_init(&seen, scene, grading->looks, &hierarchy->alloc, grading->watch);
+    status = hr2di_visible_vertices_init(&seen, scene, grading->beam_cache, &hierarchy->alloc,
+                                         grading->watch);
   }
   const size_t threads = hr2di_team_threads(grading->threads);
   if (!status && threads > 1 && scene->patches >= HR2DI_CHOICE_TEAM_PATCHES) {
@@ -265,11 +264,11 @@ hr2d_status hr2di_grading_apply(hr2d_hierarchy *hierarchy, const hr2di_grading *
   } else {
     for (uint32_t k = 0; k < hr2di_scene_cell(scene) && !status; k++) {
       if (!divides(&g, k)) continue;
-      status = look(&g, k);
+      status = trace(&g, k);
       if (!status) status = divide_patch(&g, k);
     }
   }
-  hr2di_seen_ends_clear(&seen);
+  hr2di_visible_vertices_clear(&seen);
   clear(&g);
   *survey = g.survey;
   return status;

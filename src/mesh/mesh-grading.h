@@ -8,20 +8,20 @@
 #include "hierarchy/hierarchy-impl.h"
 #include "mesh/events.h"
 #include "scene/scene-impl.h"
-#include "visibility/looks.h"
+#include "visibility/beam-cache.h"
 
 typedef struct hr2di_grading {
-  double target;              /* the relative error that corners are graded for */
-  hr2d_norm norm;             /* of that error */
-  unsigned order;             /* of the elements */
-  unsigned corner_levels;     /* levels at corners beyond what the target asks for */
-  int flat;                   /* at corners there are these levels alone */
-  double distance;            /* the ellipse at which ends may be; 0: HR2DI_ELLIPSE_DISTANT */
-  const hr2di_events *events; /* where elements end; NULL for none */
-  uint64_t max_elements;      /* 0 for no limit */
-  hr2di_looks *looks;         /* keeps what patches see; NULL: nothing is kept */
-  hr2di_watch *watch;         /* NULL: nobody watches */
-  unsigned threads;           /* as in options */
+  double target;                /* the relative error that corners are graded for */
+  hr2d_norm norm;               /* of that error */
+  unsigned order;               /* of the elements */
+  unsigned corner_levels;       /* levels at corners beyond what the target asks for */
+  int no_corner_grading;        /* at corners there are these levels alone */
+  double distance;              /* the ellipse at which ends may be; 0: HR2DI_ELLIPSE_DISTANT */
+  const hr2di_events *events;   /* where elements end; NULL for none */
+  uint64_t max_elements;        /* 0 for no limit */
+  hr2di_beam_cache *beam_cache; /* keeps what patches see; NULL: nothing is kept */
+  hr2di_watch *watch;           /* NULL: nobody watches */
+  unsigned threads;             /* as in options */
 } hr2di_grading;
 
 /* The number of generations of events that an error of averages needs, from measurements.  The

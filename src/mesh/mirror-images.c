@@ -107,7 +107,8 @@ static hr2d_status add_wall(mirror *m, hr2d_segment wall) {
   return status;
 }
 
-static hr2d_status look_at_walls(mirror *m, uint32_t patch, const hr2di_seen_ends *seen) {
+static hr2d_status examine_walls(mirror *m, uint32_t patch,
+                                 const hr2di_visible_vertices *seen) {
   const hr2d_scene *scene = m->scene;
   uint32_t stack[2 * HR2DI_BOX_DEPTH];
   size_t waiting = 0;
@@ -122,7 +123,7 @@ static hr2d_status look_at_walls(mirror *m, uint32_t patch, const hr2di_seen_end
       stack[waiting++] = box->below;
       stack[waiting++] = box->below + 1;
     } else if (box->wall != scene->walls.of_segment[patch] &&
-               (!seen || hr2di_seen_ends_has_wall(seen, box->wall))) {
+               (!seen || hr2di_visible_vertices_has_wall(seen, box->wall))) {
       status = add_wall(m, scene->walls.wall[box->wall].at);
     }
   }
@@ -130,7 +131,7 @@ static hr2d_status look_at_walls(mirror *m, uint32_t patch, const hr2di_seen_end
 }
 
 hr2d_status hr2di_images_add(const hr2d_scene *scene, uint32_t patch, double max,
-                             const hr2di_seen_ends *seen, hr2di_image_points *points,
+                             const hr2di_visible_vertices *seen, hr2di_image_points *points,
                              hr2di_watch *watch) {
   mirror m = {.scene = scene,
               .patch = &scene->patch[patch],
@@ -142,7 +143,7 @@ hr2d_status hr2di_images_add(const hr2d_scene *scene, uint32_t patch, double max
   m.border = hr2di_sunlight_borders(scene, patch, &m.borders);
   if (m.count >= GRID_POINTS)
     status = hr2di_point_grid_init(&m.grid, points->point, m.count, &scene->alloc, watch);
-  if (!status) status = look_at_walls(&m, patch, seen);
+  if (!status) status = examine_walls(&m, patch, seen);
   hr2di_point_grid_clear(&m.grid, &scene->alloc);
   return status;
 }

@@ -11,7 +11,7 @@
 #include <stdint.h>
 
 #include "base/watch.h"
-#include "mesh/seen-ends.h"
+#include "mesh/visible-vertices.h"
 
 typedef struct hr2di_image_points {
   hr2d_point *point;
@@ -23,7 +23,7 @@ typedef struct hr2di_image_points {
    from the patch, other walls have no images.  Images at an ellipse of `max` or more are left
    out. Returns HR2D_OK, HR2D_ENOMEM or the status of the watch. */
 hr2d_status hr2di_images_add(const hr2d_scene *scene, uint32_t patch, double max,
-                             const hr2di_seen_ends *seen, hr2di_image_points *points,
+                             const hr2di_visible_vertices *seen, hr2di_image_points *points,
                              hr2di_watch *watch);
 
 #endif

@@ -75,11 +75,11 @@ hr2di_grid_span hr2di_point_grid_strip(const hr2di_point_grid *g, uint32_t row,
   const double ux = s.b.x - s.a.x, uy = s.b.y - s.a.y, square = ux * ux + uy * uy;
   const double below = (g->y0 + row * g->cell[1] - s.a.y) * uy,
                above = (g->y0 + (row + 1) * g->cell[1] - s.a.y) * uy;
-  const double least = fmin(below, above), most = fmax(below, above);
-  const double off = ROUNDING * (square + fmax(fabs(least), fabs(most)));
-  if (ux == 0) return most >= -off && least <= square + off ? all : none;
+  const double min = fmin(below, above), max = fmax(below, above);
+  const double off = ROUNDING * (square + fmax(fabs(min), fabs(max)));
+  if (ux == 0) return max >= -off && min <= square + off ? all : none;
   /* (x − a.x) ux is between −most and u·u − least. */
-  const double p = (-most - off) / ux, q = (square - least + off) / ux;
+  const double p = (-max - off) / ux, q = (square - min + off) / ux;
   const double from = s.a.x - g->x0 + fmin(p, q), to = s.a.x - g->x0 + fmax(p, q);
   const double width = g->cell[0] * g->columns;
   if (!(from <= width * (1 + ROUNDING)) || !(to >= -width * ROUNDING)) return none;

@@ -8,7 +8,7 @@
 #include "base/sized-struct.h"
 #include "base/watch.h"
 #include "geometry/predicates.h"
-#include "occlusion/past-clumps.h"
+#include "occlusion/area-past-hulls.h"
 
 static double largest(hr2d_segment s) {
   return fmax(fmax(fabs(s.a.x), fabs(s.a.y)), fmax(fabs(s.b.x), fabs(s.b.y)));
@@ -33,12 +33,12 @@ static int scale_segment(hr2d_segment *s, int exponent) {
 /* i, j and the occluders in units of 2^*exponent, so that the largest coordinate lies in
    [1,2). */
 static hr2d_status normalise(hr2d_segment *segment, size_t count, int *exponent) {
-  double most = 0;
+  double max = 0;
   for (size_t k = 0; k < count; k++) {
     if (!is_finite(segment[k])) return HR2D_EINVAL;
-    most = fmax(most, largest(segment[k]));
+    max = fmax(max, largest(segment[k]));
   }
-  *exponent = most > 0 ? ilogb(most) : 0;
+  *exponent = max > 0 ? ilogb(max) : 0;
   int exact = 1;
   for (size_t k = 0; k < count; k++) exact &= scale_segment(&segment[k], *exponent);
   return exact ? HR2D_OK : HR2D_ERANGE;
@@ -54,28 +54,28 @@ static int comes_first(const hr2d_segment *i, const hr2d_segment *j) {
 
 /* The screens of the occluders.  Each may hide all; then there is no need for others. */
 static hr2d_status find_screens(const hr2di_opening *o, const hr2d_segment *occluder,
-                                size_t count, hr2di_screen *screen, size_t *screens,
+                                size_t count, hr2di_clipped_occluder *screen, size_t *clipped,
                                 int *blocked, hr2di_watch *watch) {
-  *screens = 0;
+  *clipped = 0;
   *blocked = 0;
   for (size_t k = 0; k < count && !*blocked; k++) {
-    hr2di_screen *s = &screen[*screens];
+    hr2di_clipped_occluder *s = &screen[*clipped];
     if (hr2di_watch_work(watch, 1)) return hr2di_watch_status(watch);
-    *screens += (size_t)hr2di_screen_of(s, o, occluder[k]);
+    *clipped += (size_t)hr2di_clipped_occluder_of(s, o, occluder[k]);
     *blocked = s->joins == (HR2DI_JOINS_RIGHT | HR2DI_JOINS_LEFT);
   }
   return HR2D_OK;
 }
 
 /* The same past screens, at least one. */
-static hr2d_status pass(const hr2di_opening *o, hr2di_screen *screen, size_t count,
+static hr2d_status pass(const hr2di_opening *o, hr2di_clipped_occluder *screen, size_t count,
                         const hr2d_allocator *alloc, hr2di_watch *watch, double *area) {
-  hr2di_clumps clumps;
+  hr2di_occluder_hulls hulls;
   double past = 0;
   int all = 0;
-  hr2d_status status = hr2di_clumps_init(&clumps, alloc, o, screen, count, watch);
-  if (!status && !clumps.blocked) status = hr2di_past_clumps(o, &clumps, &past, &all);
-  hr2di_clumps_clear(&clumps);
+  hr2d_status status = hr2di_occluder_hulls_init(&hulls, alloc, o, screen, count, watch);
+  if (!status && !hulls.blocked) status = hr2di_past_clumps(o, &hulls, &past, &all);
+  hr2di_occluder_hulls_clear(&hulls);
   if (!all) *area = fmin(past, *area);
   return status;
 }
@@ -84,19 +84,19 @@ static hr2d_status pass(const hr2di_opening *o, hr2di_screen *screen, size_t cou
 static hr2d_status integrate(const hr2d_segment *segment, size_t count,
                              const hr2d_allocator *alloc, hr2di_watch *watch, double *area) {
   hr2di_opening opening;
-  size_t screens;
+  size_t clipped;
   int blocked;
   *area = hr2d_exchange_area(&segment[0], &segment[1]);
   const hr2di_facing facing = hr2di_facing_of(&segment[0], &segment[1]);
   if (!hr2di_opening_init(&opening, facing, segment[0], segment[1])) return HR2D_OK;
-  hr2di_screen *screen = hr2di_alloc(alloc, count, sizeof *screen);
+  hr2di_clipped_occluder *screen = hr2di_alloc(alloc, count, sizeof *screen);
   if (!screen) return HR2D_ENOMEM;
   hr2d_status status =
-      find_screens(&opening, segment + 2, count - 2, screen, &screens, &blocked, watch);
+      find_screens(&opening, segment + 2, count - 2, screen, &clipped, &blocked, watch);
   if (blocked)
     *area = 0;
-  else if (!status && screens > 0)
-    status = pass(&opening, screen, screens, alloc, watch, area);
+  else if (!status && clipped > 0)
+    status = pass(&opening, screen, clipped, alloc, watch, area);
   hr2di_alloc_free(alloc, screen);
   return status;
 }

@@ -59,13 +59,13 @@ static hr2di_stack *stack_of(hr2di_projector *p, int k) {
 }
 
 /* What the team has done, for the watch; with one worker hr2di_rounds_describe() knows more. */
-static void describe(void *of, hr2d_progress *told) {
+static void describe(void *of, hr2d_progress *report) {
   const team *t = of;
   const hr2di_projector *p = t->worker[0].projector;
   const unsigned long long tasks = task_count(t), done = atomic_load(&t->tasks_done);
-  told->elements = p->hierarchy->elements;
-  told->links = atomic_load(&t->links_found) + p->counts.links;
-  told->fraction = tasks && done < tasks ? (double)done / (double)tasks : tasks > 0;
+  report->elements = p->hierarchy->elements;
+  report->links = atomic_load(&t->links_found) + p->counts.links;
+  report->fraction = tasks && done < tasks ? (double)done / (double)tasks : tasks > 0;
 }
 
 /* The budget of bytes has an equal part for each worker and one for the union of their trees;
@@ -163,7 +163,7 @@ static uint64_t shared_bytes(const team *t) {
   uint64_t pairs = t->occluded.stack.capacity;
   for (int k = 0; k < STACKS; k++) pairs += t->stack[k].capacity;
   return pairs * sizeof(hr2d_pair) + t->occluded.first_capacity * sizeof *t->occluded.first +
-         hr2di_sight_list_bytes(&t->occluded.list);
+         hr2di_line_class_list_bytes(&t->occluded.list);
 }
 
 /* Shares the pairs on the first worker's stacks among all.  The first worker's budget keeps
@@ -194,10 +194,10 @@ static hr2d_status unite(team *t, size_t hired, uint64_t links) {
   hr2d_hierarchy *h = t->links->hierarchy;
   hr2di_message *message = &t->links->message;
   const size_t elements = h->elements, room = union_room(t, hired);
-  const uint64_t most = t->options.max_elements;
+  const uint64_t max = t->options.max_elements;
   hr2d_status status = hr2di_hierarchy_unite(h, t->clone, hired, room, t->watch);
   if (!status) status = hr2di_image_trees_unite(h, room, t->watch);
-  if (!status && (!most || h->elements <= most)) return HR2D_OK;
+  if (!status && (!max || h->elements <= max)) return HR2D_OK;
   hr2di_hierarchy_truncate(h, elements);
   if (status == HR2D_EMAX_BYTES)
     return hr2di_projector_fail_budget(t->links, t->options.max_bytes, links);
@@ -207,7 +207,7 @@ static hr2d_status unite(team *t, size_t hired, uint64_t links) {
   if (status) return hr2di_message_fail(message, status, "no room for the elements");
   return hr2di_message_fail(message, HR2D_EMAX_ELEMENTS,
                             "more than %llu elements are needed, for %llu links",
-                            (unsigned long long)most, (unsigned long long)links);
+                            (unsigned long long)max, (unsigned long long)links);
 }
 
 /* A worker is not hired if the first one finished before. */
@@ -255,7 +255,7 @@ static hr2d_status count_as_team(team *t, hr2d_refine_counts *counts) {
   if (!first->status && t->count > 1 && !finished(t)) share_out(t);
   if (!first->status) hr2di_rounds_measure(first->projector);
   if (t->count > 1) hr2di_watch_describe(t->watch, NULL, NULL);
-  if (t->count > 1) t->watch->told.fraction = 1;
+  if (t->count > 1) t->watch->report.fraction = 1;
   if (!first->status)
     first->status = hr2di_projector_fail(first->projector, hr2di_watch_ask(t->watch), "");
   t->links->hierarchy->refining = 0;
@@ -286,7 +286,7 @@ hr2d_status hr2di_refine_count(hr2d_linkset *links, const hr2di_refine_how *how,
   for (int k = 0; k < STACKS; k++) hr2di_alloc_free(&links->alloc, t.stack[k].pair);
   hr2di_alloc_free(&links->alloc, t.occluded.stack.pair);
   hr2di_alloc_free(&links->alloc, t.occluded.first);
-  hr2di_sight_list_clear(&t.occluded.list);
+  hr2di_line_class_list_clear(&t.occluded.list);
   hr2di_worker_destroy(t.worker, t.count, &links->alloc);
   hr2di_alloc_free(&links->alloc, t.clone);
   return status;

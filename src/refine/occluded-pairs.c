@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Occluded pairs: each carries the sights between walls of which it sees a part.  A child pair
-   takes its part from them, too, and not from its parent's: so no bit depends on the way to it.
+/* Occluded pairs: each carries the line classes between walls of which it sees a part.  A child
+   pair takes its part from them, too, and not from its parent's: so no bit depends on the way
+   to it.
 
    A pair that nothing bounds but its own elements is unoccluded, and no pair below it is tested
-   again.  A pair without sights is dropped. */
+   again.  A pair without line classes is dropped. */
 #include "refine/occluded-pairs.h"
 
 #include "base/alloc.h"
@@ -21,12 +22,12 @@ static hr2d_status fail(hr2di_projector *p, hr2d_status status) {
    lists, and the rest for what is beside them. */
 static void set_limits(hr2di_projector *p) {
   enum { PARTS = 8 };
-  hr2di_sight_list *const list[] = {&p->sights->all, &p->sights->turned, &p->found, &p->parts,
-                                    &p->occluded.list};
+  hr2di_line_class_list *const list[] = {&p->visibility->all, &p->visibility->turned, &p->found,
+                                         &p->parts, &p->occluded.list};
   const uint64_t left = hr2di_projector_left(p);
   if (left == UINT64_MAX) return;
   for (size_t k = 0; k < sizeof list / sizeof *list; k++)
-    list[k]->most_bytes = hr2di_sight_list_bytes(list[k]) + left / PARTS + 1;
+    list[k]->max_bytes = hr2di_line_class_list_bytes(list[k]) + left / PARTS + 1;
 }
 
 /* The patch with the lower number comes first, so that both directions get the same
@@ -45,16 +46,16 @@ static hr2di_facing facing_of(const hr2di_patch_pair *parts) {
   return hr2di_facing_of(&parts->part[swap], &parts->part[!swap]);
 }
 
-/* By the sights from number `from` on. */
-static hr2di_visibility_class classify(const hr2di_sight_list *list, size_t from,
+/* By the line classes from number `from` on. */
+static hr2di_visibility_class classify(const hr2di_line_class_list *list, size_t from,
                                        const hr2di_patch_pair *parts) {
   const int swap = swapped(parts);
-  return hr2di_sights_classify(list, from, parts->part[swap], parts->part[!swap]);
+  return hr2di_line_classes_classify(list, from, parts->part[swap], parts->part[!swap]);
 }
 
-hr2d_status hr2di_occluded_look(hr2di_projector *p, uint32_t from, uint32_t to) {
+hr2d_status hr2di_occluded_trace(hr2di_projector *p, uint32_t from, uint32_t to) {
   set_limits(p);
-  return fail(p, hr2di_patch_sights_look(p->sights, from, to));
+  return fail(p, hr2di_pair_visibility_look(p->visibility, from, to));
 }
 
 hr2d_status hr2di_occluded_collect(hr2di_projector *p, hr2d_pair pair,
@@ -62,19 +63,19 @@ hr2d_status hr2di_occluded_collect(hr2di_projector *p, hr2d_pair pair,
   const hr2di_patch_pair parts = parts_of(p->hierarchy, pair);
   *view = HR2DI_CLEAR;
   if (facing_of(&parts) == HR2DI_FACING_NONE) return HR2D_OK;
-  hr2di_sight_list_cut(&p->parts, 0);
+  hr2di_line_class_list_cut(&p->parts, 0);
   set_limits(p);
-  const uint64_t before = hr2di_patch_sights_tests(p->sights);
+  const uint64_t before = hr2di_pair_visibility_tests(p->visibility);
   const hr2d_status status =
-      hr2di_patch_sights_between(p->sights, &parts, &p->parts, &p->found);
+      hr2di_pair_visibility_between(p->visibility, &parts, &p->parts, &p->found);
   hr2di_projector_in_row(p, parts.patch[0], parts.patch[1], 0,
-                         hr2di_patch_sights_tests(p->sights) - before);
+                         hr2di_pair_visibility_tests(p->visibility) - before);
   if (!status) *view = classify(&p->parts, 0, &parts);
   return fail(p, status);
 }
 
-/* Puts a pair on the stack with sights [first, last) of a list. */
-static hr2d_status push(hr2di_projector *p, hr2d_pair pair, const hr2di_sight_list *list,
+/* Puts a pair on the stack with line classes [first, last) of a list. */
+static hr2d_status push(hr2di_projector *p, hr2d_pair pair, const hr2di_line_class_list *list,
                         size_t first, size_t last) {
   hr2di_occluded_pairs *s = &p->occluded;
   const size_t pairs = s->stack.count + 1;
@@ -87,14 +88,14 @@ static hr2d_status push(hr2di_projector *p, hr2d_pair pair, const hr2di_sight_li
     return fail(p, HR2D_ENOMEM);
   s->first[s->stack.count - 1] = s->list.count;
   set_limits(p);
-  return fail(p, hr2di_sight_list_copy(&s->list, list, first, last));
+  return fail(p, hr2di_line_class_list_copy(&s->list, list, first, last));
 }
 
 /* Links an accepted pair, which sees parts [first, last) of p->parts. */
 static hr2d_status link_pair(hr2di_projector *p, hr2d_pair pair, size_t first, size_t last) {
   const hr2d_status status = hr2di_projector_work(p, 1 + (last - first));
   if (status) return fail(p, status);
-  double area = p->sink ? hr2di_sight_list_area(&p->parts, first, last) : 0;
+  double area = p->sink ? hr2di_line_class_list_area(&p->parts, first, last) : 0;
   hr2di_projector_weigh(p, &pair, 1, &area);
   p->counts.partial_links++;
   p->counts.exchange_areas += p->sink != NULL;
@@ -102,7 +103,8 @@ static hr2d_status link_pair(hr2di_projector *p, hr2d_pair pair, size_t first, s
   return hr2di_projector_accept(p, &area, 1);
 }
 
-/* A pair to be proposed, with its sights in p->found, and what it sees of them in p->parts. */
+/* A pair to be proposed, with its line classes in p->found, and what it sees of them in
+ * p->parts. */
 typedef struct candidate {
   hr2d_pair pair;
   size_t first, last, first_part, last_part;
@@ -141,7 +143,7 @@ static hr2d_status sort_out(hr2di_projector *p, const candidate *seen,
 
 hr2d_status hr2di_occluded_propose_roots(hr2di_projector *p, const hr2d_pair *pairs,
                                          size_t count) {
-  if (!p->sights) return hr2di_projector_propose_clipped(p, pairs, count);
+  if (!p->visibility) return hr2di_projector_propose_clipped(p, pairs, count);
   hr2d_pair clear[HR2DI_CANDIDATES];
   size_t kept = 0;
   hr2d_status status = HR2D_OK;
@@ -154,7 +156,7 @@ hr2d_status hr2di_occluded_propose_roots(hr2di_projector *p, const hr2d_pair *pa
     status = fail(p, hr2di_projector_work(p, 1));
     if (status) break;
     hr2di_visibility_class view;
-    hr2di_sight_list_cut(&p->found, 0);
+    hr2di_line_class_list_cut(&p->found, 0);
     status = hr2di_occluded_collect(p, pairs[k], &view);
     const candidate c = {pairs[k], 0, p->found.count, 0, p->parts.count};
     p->counts.blocked_pairs += view == HR2DI_BLOCKED;
@@ -166,7 +168,7 @@ hr2d_status hr2di_occluded_propose_roots(hr2di_projector *p, const hr2d_pair *pa
 
 hr2d_status hr2di_occluded_push(hr2di_projector *p, hr2d_pair pair) {
   hr2di_visibility_class view;
-  hr2di_sight_list_cut(&p->found, 0);
+  hr2di_line_class_list_cut(&p->found, 0);
   const hr2d_status status = hr2di_occluded_collect(p, pair, &view);
   return status ? status : push(p, pair, &p->found, 0, p->found.count);
 }
@@ -177,37 +179,37 @@ hr2d_status hr2di_occluded_share(hr2di_projector *p, const hr2di_occluded_pairs 
   return push(p, from->stack.pair[k], &from->list, from->first[k], last);
 }
 
-/* Leaves to a child pair what it sees of its parent's sights, from number `from` on, behind
-   what p->found and p->parts have. */
+/* Leaves to a child pair what it sees of its parent's line classes, from number `from` on,
+   behind what p->found and p->parts have. */
 static hr2d_status restrict_to(hr2di_projector *p, hr2d_pair child, size_t from,
                                hr2di_facing *facing, hr2di_visibility_class *view) {
   const hr2di_patch_pair parts = parts_of(p->hierarchy, child);
   const int swap = swapped(&parts);
-  const hr2di_sight_list *list = &p->occluded.list;
+  const hr2di_line_class_list *list = &p->occluded.list;
   *view = HR2DI_BLOCKED;
   *facing = facing_of(&parts);
   if (*facing == HR2DI_FACING_NONE) return HR2D_OK;
   const size_t first = p->parts.count;
   set_limits(p);
-  hr2d_status status = hr2di_sight_list_restrict(
+  hr2d_status status = hr2di_line_class_list_restrict(
       &p->parts, list, from, list->count, parts.part[swap], parts.part[!swap], &p->found);
-  p->sights->restricted += list->count - from;
+  p->visibility->restricted += list->count - from;
   hr2di_projector_in_row(p, parts.patch[0], parts.patch[1], 0, list->count - from);
   if (!status) status = hr2di_projector_work(p, 1 + (list->count - from) / 2);
   if (!status) *view = classify(&p->parts, first, &parts);
   return fail(p, status);
 }
 
-/* Links a pair that no limit lets be divided, with its sights from number `from` on. */
+/* Links a pair that no limit lets be divided, with its line classes from number `from` on. */
 static hr2d_status link_limited(hr2di_projector *p, hr2d_pair pair, size_t from) {
   const hr2di_patch_pair parts = parts_of(p->hierarchy, pair);
-  const hr2di_sight_list *list = &p->occluded.list;
+  const hr2di_line_class_list *list = &p->occluded.list;
   const int swap = swapped(&parts);
   hr2d_status status = HR2D_OK;
   set_limits(p);
   if (p->sink)
-    status = hr2di_sight_list_restrict(&p->parts, list, from, list->count, parts.part[swap],
-                                       parts.part[!swap], NULL);
+    status = hr2di_line_class_list_restrict(&p->parts, list, from, list->count,
+                                            parts.part[swap], parts.part[!swap], NULL);
   if (status) return fail(p, status);
   p->counts.limited_links++;
   return link_pair(p, pair, 0, p->parts.count);
@@ -221,8 +223,8 @@ hr2d_status hr2di_occluded_round(hr2di_projector *p) {
   size_t candidates, count = 0;
   int limited;
   hr2d_status status = hr2di_projector_subdivide(p, pair, &candidates, &limited);
-  hr2di_sight_list_cut(&p->parts, 0);
-  hr2di_sight_list_cut(&p->found, 0);
+  hr2di_line_class_list_cut(&p->parts, 0);
+  hr2di_line_class_list_cut(&p->found, 0);
   if (!status && limited) status = link_limited(p, pair, from);
   for (size_t k = 0; k < candidates && !status; k++) {
     hr2di_facing facing;
@@ -235,21 +237,23 @@ hr2d_status hr2di_occluded_round(hr2di_projector *p) {
     if (!status && facing != HR2DI_FACING_NONE)
       status = sort_out(p, &seen, view, facing, c, &count);
   }
-  hr2di_sight_list_cut(&s->list, from);
+  hr2di_line_class_list_cut(&s->list, from);
   return status ? status : propose(p, c, count);
 }
 
-hr2d_status hr2di_occluded_area(hr2di_patch_sights *sights, const hr2d_hierarchy *hierarchy,
-                                hr2d_pair pair, double *area, hr2di_visibility_class *view) {
+hr2d_status hr2di_occluded_area(hr2di_pair_visibility *visibility,
+                                const hr2d_hierarchy *hierarchy, hr2d_pair pair, double *area,
+                                hr2di_visibility_class *view) {
   const hr2di_patch_pair parts = parts_of(hierarchy, pair);
-  hr2di_sight_list found = {.alloc = hierarchy->alloc};
+  hr2di_line_class_list found = {.alloc = hierarchy->alloc};
   *area = 0;
   *view = HR2DI_CLEAR;
   if (facing_of(&parts) == HR2DI_FACING_NONE) return HR2D_OK;
-  const hr2d_status status = hr2di_patch_sights_between(sights, &parts, &found, NULL);
+  const hr2d_status status = hr2di_pair_visibility_between(visibility, &parts, &found, NULL);
   if (!status) *view = classify(&found, 0, &parts);
   if (!status && *view == HR2DI_CLEAR) hr2di_exchange_areas(hierarchy->element, &pair, 1, area);
-  if (!status && *view == HR2DI_PARTIAL) *area = hr2di_sight_list_area(&found, 0, found.count);
-  hr2di_sight_list_clear(&found);
+  if (!status && *view == HR2DI_PARTIAL)
+    *area = hr2di_line_class_list_area(&found, 0, found.count);
+  hr2di_line_class_list_clear(&found);
   return status;
 }

@@ -11,7 +11,7 @@ hr2d_status hr2di_occluded_propose_roots(hr2di_projector *p, const hr2d_pair *pa
 
 /* Looks round from a patch, as the first pair of patches in its row that needs it does. Returns
    HR2D_OK, or the status that stops the refinement. */
-hr2d_status hr2di_occluded_look(hr2di_projector *p, uint32_t from, uint32_t to);
+hr2d_status hr2di_occluded_trace(hr2di_projector *p, uint32_t from, uint32_t to);
 
 /* Appends to p->found what a pair of elements sees of each other. */
 hr2d_status hr2di_occluded_collect(hr2di_projector *p, hr2d_pair pair,
@@ -20,7 +20,7 @@ hr2d_status hr2di_occluded_collect(hr2di_projector *p, hr2d_pair pair,
 /* Puts a refused pair that has walls in the way on the stack. */
 hr2d_status hr2di_occluded_push(hr2di_projector *p, hr2d_pair pair);
 
-/* Puts pair number k of another stack on this one, with its sights. */
+/* Puts pair number k of another stack on this one, with its line classes. */
 hr2d_status hr2di_occluded_share(hr2di_projector *p, const hr2di_occluded_pairs *from,
                                  size_t k);
 
@@ -30,7 +30,8 @@ hr2d_status hr2di_occluded_round(hr2di_projector *p);
 /* The exchange area of a pair, in units of the scene, past all walls of the scene; 0 and
    HR2DI_BLOCKED in *view if nothing passes.  Returns HR2D_OK, HR2D_ENOMEM or the status of the
    watch. */
-hr2d_status hr2di_occluded_area(hr2di_patch_sights *sights, const hr2d_hierarchy *hierarchy,
-                                hr2d_pair pair, double *area, hr2di_visibility_class *view);
+hr2d_status hr2di_occluded_area(hr2di_pair_visibility *visibility,
+                                const hr2d_hierarchy *hierarchy, hr2d_pair pair, double *area,
+                                hr2di_visibility_class *view);
 
 #endif

@@ -4,7 +4,7 @@
 #include "refine/part-rows.h"
 
 static uint64_t all_tests(const hr2di_projector *p) {
-  return p->sights ? hr2di_patch_sights_tests(p->sights) : 0;
+  return p->visibility ? hr2di_pair_visibility_tests(p->visibility) : 0;
 }
 
 uint64_t hr2di_part_rows_tests(const hr2di_projector *p) {

@@ -9,7 +9,7 @@
 #include "refine/part-rows.h"
 #include "refine/projector.h"
 #include "refine/rounds.h"
-#include "refine/row-look.h"
+#include "refine/trace-row.h"
 #include "scene/scene-impl.h"
 #include "solution/solution-impl.h"
 
@@ -140,13 +140,13 @@ static hr2d_status set_sights(hr2di_projector *p) {
   p->test_all =
       !scene->effect[HR2D_EFFECT_FACING].called_for && scene->effect[HR2D_EFFECT_FACING].forced;
   if (!scene->effect[HR2D_EFFECT_OCCLUSION].on) return HR2D_OK;
-  p->bytes +=
-      sizeof *p->sights + 2 * scene->plane.triangulation.edges * sizeof *p->sights->last;
+  p->bytes += sizeof *p->visibility +
+              2 * scene->plane.triangulation.edges * sizeof *p->visibility->last;
   const hr2d_status status = hr2di_projector_check_budget(p, 0);
   if (status) return status;
-  p->sights = hr2di_alloc_zero(&p->links->alloc, 1, sizeof *p->sights);
-  if (!p->sights ||
-      hr2di_patch_sights_init(p->sights, scene, p->how.looks, &p->links->alloc, p->watch))
+  p->visibility = hr2di_alloc_zero(&p->links->alloc, 1, sizeof *p->visibility);
+  if (!p->visibility || hr2di_pair_visibility_init(p->visibility, scene, p->how.beam_cache,
+                                                   &p->links->alloc, p->watch))
     return hr2di_message_fail(&p->links->message, HR2D_ENOMEM,
                               "out of memory for the refinement");
   return HR2D_OK;
@@ -191,11 +191,11 @@ void hr2di_projector_destroy(hr2di_projector *p) {
   for (int k = 0; k < 2; k++) hr2di_alloc_free(alloc, p->unoccluded[k].pair);
   hr2di_alloc_free(alloc, p->occluded.stack.pair);
   hr2di_alloc_free(alloc, p->occluded.first);
-  hr2di_sight_list_clear(&p->occluded.list);
-  hr2di_sight_list_clear(&p->found);
-  hr2di_sight_list_clear(&p->parts);
-  if (p->sights) hr2di_patch_sights_clear(p->sights);
-  hr2di_alloc_free(alloc, p->sights);
+  hr2di_line_class_list_clear(&p->occluded.list);
+  hr2di_line_class_list_clear(&p->found);
+  hr2di_line_class_list_clear(&p->parts);
+  if (p->visibility) hr2di_pair_visibility_clear(p->visibility);
+  hr2di_alloc_free(alloc, p->visibility);
   hr2di_alloc_free(alloc, p->brightness);
   hr2di_alloc_free(alloc, p->rows);
   hr2di_alloc_free(alloc, p);
@@ -247,7 +247,7 @@ static hr2d_status propose_slot(hr2di_projector *p, size_t patch, uint32_t slot)
    depend on other slots. */
 static hr2d_status project_pieces(hr2di_projector *p, size_t patch) {
   const hr2di_row_pieces *pieces = p->how.pieces;
-  hr2d_status status = hr2di_row_look_round(p, patch);
+  hr2d_status status = hr2di_trace_row(p, patch);
   for (uint32_t k = 0; k < hr2di_row_slots(pieces, patch) && !status; k++) {
     const uint32_t slot = pieces->slot[patch] + k;
     if (!pieces->own[slot] || hr2di_slot_pieces(pieces, slot) == 1) continue;

@@ -30,11 +30,12 @@ hr2d_status hr2di_projector_fail(hr2di_projector *p, hr2d_status status, const c
 static uint64_t stack_bytes(const hr2di_projector *p) {
   const uint64_t pairs = p->facing.capacity + p->clipped.capacity + p->unoccluded[0].capacity +
                          p->unoccluded[1].capacity + p->occluded.stack.capacity;
-  const uint64_t sights =
-      hr2di_sight_list_bytes(&p->occluded.list) + hr2di_sight_list_bytes(&p->found) +
-      hr2di_sight_list_bytes(&p->parts) + (p->sights ? hr2di_patch_sights_bytes(p->sights) : 0);
+  const uint64_t visibility = hr2di_line_class_list_bytes(&p->occluded.list) +
+                              hr2di_line_class_list_bytes(&p->found) +
+                              hr2di_line_class_list_bytes(&p->parts) +
+                              (p->visibility ? hr2di_pair_visibility_bytes(p->visibility) : 0);
   return pairs * sizeof(hr2d_pair) + p->occluded.first_capacity * sizeof *p->occluded.first +
-         sights + p->brightness_capacity * sizeof *p->brightness;
+         visibility + p->brightness_capacity * sizeof *p->brightness;
 }
 
 hr2d_status hr2di_projector_fail_budget(hr2d_linkset *links, uint64_t budget, uint64_t made) {
@@ -333,21 +334,21 @@ static inline uint32_t less(uint32_t i, uint32_t j) {
 size_t hr2di_projector_children(hr2di_projector *p, const hr2d_pair *pairs, size_t count) {
   const hr2d_element *element = p->hierarchy->element;
   hr2d_pair *out = p->candidate;
-  uint32_t least = UINT32_MAX;
+  uint32_t min = UINT32_MAX;
   for (size_t k = 0; k < count; k++) {
     const unsigned split = p->split[k];
     if (split == HR2D_SPLIT_BOTH) {
       hr2d_pair half[2];
-      least = less(least, split_one(element, &pairs[k], HR2D_SPLIT_FIRST, half));
-      least = less(least, split_one(element, &half[0], HR2D_SPLIT_SECOND, out));
-      least = less(least, split_one(element, &half[1], HR2D_SPLIT_SECOND, out + 2));
+      min = less(min, split_one(element, &pairs[k], HR2D_SPLIT_FIRST, half));
+      min = less(min, split_one(element, &half[0], HR2D_SPLIT_SECOND, out));
+      min = less(min, split_one(element, &half[1], HR2D_SPLIT_SECOND, out + 2));
       out += 4;
     } else {
-      least = less(least, split_one(element, &pairs[k], split, out));
+      min = less(min, split_one(element, &pairs[k], split, out));
       out += 2;
     }
   }
-  return least ? (size_t)(out - p->candidate) : 0;
+  return min ? (size_t)(out - p->candidate) : 0;
 }
 
 hr2d_status hr2di_projector_subdivide(hr2di_projector *p, hr2d_pair pair, size_t *candidates,

@@ -9,7 +9,7 @@
 #include "hierarchy/hierarchy-impl.h"
 #include "links/linkset-impl.h"
 #include "refine/refine-how.h"
-#include "visibility/patch-sights.h"
+#include "visibility/pair-visibility.h"
 
 enum {
   HR2DI_BATCH = 256,                 /* pairs subdivided at a time */
@@ -26,13 +26,13 @@ typedef struct hr2di_stack {
   size_t count, capacity;
 } hr2di_stack;
 
-/* A stack of pairs with walls in the way.  The sights of a pair are in `list`, behind those of
-   the pair below it on the stack. */
+/* A stack of pairs with walls in the way.  The line classes of a pair are in `list`, behind
+   those of the pair below it on the stack. */
 typedef struct hr2di_occluded_pairs {
   hr2di_stack stack;
-  size_t *first; /* per pair: where its sights begin in `list` */
+  size_t *first; /* per pair: where its line classes begin in `list` */
   size_t first_capacity;
-  hr2di_sight_list list;
+  hr2di_line_class_list list;
 } hr2di_occluded_pairs;
 
 /* The slot under way, if it has several pieces, see refine/part-rows.h. */
@@ -76,12 +76,12 @@ struct hr2di_projector {
   hr2di_stack clipped; /* refused pairs that one horizon still cuts */
 
   /* Empty unless the scene calls for occlusion. */
-  hr2di_patch_sights *sights;
+  hr2di_pair_visibility *visibility;
   hr2di_occluded_pairs occluded; /* refused pairs with walls in the way */
   hr2di_stack unoccluded[2];     /* child pairs without walls, not yet proposed: facing fully,
                                     and in part */
-  hr2di_sight_list found;        /* sights of pairs that are not yet estimated */
-  hr2di_sight_list parts;        /* what one pair sees of them */
+  hr2di_line_class_list found;   /* line classes of pairs that are not yet estimated */
+  hr2di_line_class_list parts;   /* what one pair sees of them */
   const unsigned char *partial;  /* per pair to be estimated: it has walls in the way; NULL: no
                                     pair has any */
 

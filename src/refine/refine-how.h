@@ -6,12 +6,12 @@
 #include <hr2d/refine.h>
 
 #include "links/row-pieces.h"
-#include "visibility/looks.h"
+#include "visibility/beam-cache.h"
 
 /* All 0: as hr2d_refine() does it. */
 typedef struct hr2di_refine_how {
   const hr2di_row_pieces *pieces; /* which links are kept; NULL: all of the rows */
-  hr2di_looks *looks; /* keeps what patches see; NULL: each that looks walks beams */
+  hr2di_beam_cache *beam_cache; /* keeps what patches see; NULL: each that looks walks beams */
 } hr2di_refine_how;
 
 /* hr2d_refine() and hr2d_refine_count(). */

@@ -18,7 +18,7 @@
 /* Elements of images are a part of the budgets. */
 static hr2d_status unite_images(hr2di_projector *p) {
   hr2d_hierarchy *h = p->hierarchy;
-  const uint64_t most = p->options.max_elements;
+  const uint64_t upper = p->options.max_elements;
   const uint64_t room = hr2di_projector_left(p) / HR2DI_ELEMENT_BYTES;
   if (!h->scene->symmetry.motion) return HR2D_OK;
   const size_t max = room < SIZE_MAX - h->capacity ? h->capacity + (size_t)room : SIZE_MAX;
@@ -26,11 +26,11 @@ static hr2d_status unite_images(hr2di_projector *p) {
   if (status == HR2D_EMAX_BYTES)
     return hr2di_projector_fail_budget(p->links, p->budget, p->counts.links);
   if (status) return hr2di_projector_fail(p, status, " for images");
-  if (!most || h->elements <= most) return HR2D_OK;
+  if (!upper || h->elements <= upper) return HR2D_OK;
   return hr2di_message_fail(&p->links->message, HR2D_EMAX_ELEMENTS,
                             "more than %llu elements are needed with those of images, for %llu "
                             "links",
-                            (unsigned long long)most, (unsigned long long)p->counts.links);
+                            (unsigned long long)upper, (unsigned long long)p->counts.links);
 }
 
 /* Runs a projector.  On failure the hierarchy gets its former size. */
@@ -66,7 +66,7 @@ typedef struct storing {
 /* Whether the budget has what `count` more links may need.  Slabs become small as it ends. */
 static hr2d_status afford_links(hr2di_projector *p, hr2di_store *store, size_t count) {
   if (!p->options.max_bytes) return HR2D_OK;
-  store->most_slab = hr2di_projector_left(p) / 8 + 1;
+  store->max_slab = hr2di_projector_left(p) / 8 + 1;
   return hr2di_projector_check_budget(p, hr2di_store_growth(store, count));
 }
 
@@ -114,12 +114,12 @@ static int faces_fully(const hr2d_hierarchy *h, hr2d_pair pair, hr2di_watch *wat
 }
 
 /* Sets partial[k] for links with walls in the way, and p->partial if there are any. */
-static hr2d_status look_again(hr2di_projector *p, const hr2d_pair *pairs, size_t count,
-                              unsigned char *partial) {
+static hr2d_status visit_again(hr2di_projector *p, const hr2d_pair *pairs, size_t count,
+                               unsigned char *partial) {
   hr2d_status status = HR2D_OK;
   for (size_t k = 0; k < count && !status; k++) {
     hr2di_visibility_class view;
-    hr2di_sight_list_cut(&p->found, 0);
+    hr2di_line_class_list_cut(&p->found, 0);
     status = hr2di_occluded_collect(p, pairs[k], &view);
     partial[k] = view != HR2DI_CLEAR;
     if (partial[k]) p->partial = partial;
@@ -148,7 +148,7 @@ static hr2d_status project_links(hr2di_projector *p) {
     const uint64_t rest = old->count - first;
     const size_t count = rest < HR2DI_BATCH ? (size_t)rest : HR2DI_BATCH;
     for (size_t k = 0; k < count; k++) pairs[k] = hr2di_store_at(old, first + k)->pair;
-    if (p->sights) status = look_again(p, pairs, count, partial);
+    if (p->visibility) status = visit_again(p, pairs, count, partial);
     if (!status) status = hr2di_projector_estimate(p, pairs, count);
     p->partial = NULL;
     size_t kept = 0;
@@ -197,13 +197,14 @@ static hr2d_status unite(hr2di_projector *p, size_t elements, hr2di_store *made,
                          hr2d_status status) {
   hr2d_hierarchy *h = p->hierarchy;
   hr2d_share *share = p->options.share;
-  const uint64_t most = p->options.max_elements;
+  const uint64_t upper = p->options.max_elements;
   h->refining = 1;
   status = hr2di_unite_shares(h, share, elements, made, p->watch, status);
   h->refining = 0;
-  if (!status && most && h->elements > most)
-    status = hr2di_message_fail(&p->links->message, HR2D_EMAX_ELEMENTS,
-                                "more than %llu elements are needed", (unsigned long long)most);
+  if (!status && upper && h->elements > upper)
+    status =
+        hr2di_message_fail(&p->links->message, HR2D_EMAX_ELEMENTS,
+                           "more than %llu elements are needed", (unsigned long long)upper);
   status = hr2di_unite_counts(&p->counts, share, status);
   if (status && h->elements > elements) hr2di_hierarchy_truncate(h, elements);
   if (status && !p->links->message.text[0])

@@ -95,9 +95,9 @@ void hr2di_rounds_measure(hr2di_projector *p) {
   p->fraction = done > 0 && p->roots > 0 ? done / p->roots : 0;
 }
 
-void hr2di_rounds_describe(void *projector, hr2d_progress *told) {
+void hr2di_rounds_describe(void *projector, hr2d_progress *report) {
   const hr2di_projector *p = projector;
-  told->elements = p->hierarchy->elements;
-  told->links = p->counts.links;
-  told->fraction = p->fraction;
+  report->elements = p->hierarchy->elements;
+  report->links = p->counts.links;
+  report->fraction = p->fraction;
 }

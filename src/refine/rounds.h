@@ -16,6 +16,6 @@ hr2d_status hr2di_rounds_run(hr2di_projector *p, size_t enough);
 void hr2di_rounds_measure(hr2di_projector *p);
 
 /* Describes the progress of a projector, for its watch. */
-void hr2di_rounds_describe(void *projector, hr2d_progress *told);
+void hr2di_rounds_describe(void *projector, hr2d_progress *report);
 
 #endif

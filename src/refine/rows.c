@@ -101,12 +101,12 @@ static void do_row(void *ctx, size_t number, size_t task) {
   if (w->status) hr2di_watch_stop(all->p->watch, HR2D_STOPPED);
 }
 
-static void describe(void *of, hr2d_progress *told) {
+static void describe(void *of, hr2d_progress *report) {
   const rows *all = of;
-  told->elements = all->p->hierarchy->elements;
-  told->links = atomic_load(&all->links_found);
+  report->elements = all->p->hierarchy->elements;
+  report->links = atomic_load(&all->links_found);
   const size_t wanted = all->p->options.row_to - all->p->options.row_from;
-  told->fraction = wanted > 0 ? (double)atomic_load(&all->rows_done) / (double)wanted : 1;
+  report->fraction = wanted > 0 ? (double)atomic_load(&all->rows_done) / (double)wanted : 1;
 }
 
 /* The number in the hierarchy of an element of the copy. */

@@ -42,7 +42,7 @@ typedef struct validator {
   node *node;
   hr2d_pair *stack;
   size_t capacity;
-  hr2di_patch_sights *sights; /* NULL if the scene needs no occlusion */
+  hr2di_pair_visibility *visibility; /* NULL if the scene needs no occlusion */
   hr2di_watch watch;
 } validator;
 
@@ -104,16 +104,16 @@ static double rounding_of(const validator *v, hr2d_pair pair) {
   const hr2d_element *i = &v->h->element[pair.first], *j = &v->h->element[pair.second];
   const double x = fmax(fmax(fabs(i->a.x), fabs(i->b.x)), fmax(fabs(j->a.x), fabs(j->b.x)));
   const double y = fmax(fmax(fabs(i->a.y), fabs(i->b.y)), fmax(fabs(j->a.y), fabs(j->b.y)));
-  return v->sights ? 16 * DBL_EPSILON * fmax(x, y) + 4 * 0x1p-49 : 0;
+  return v->visibility ? 16 * DBL_EPSILON * fmax(x, y) + 4 * 0x1p-49 : 0;
 }
 
 /* The exchange areas that the links of pairs should have. */
 static hr2d_status integrate(validator *v, const hr2d_pair *pair, size_t count, double *area) {
   hr2d_status status = work(v, count);
-  if (!v->sights) hr2di_exchange_areas(v->h->element, pair, count, area);
-  for (size_t k = 0; k < count && v->sights && !status; k++) {
+  if (!v->visibility) hr2di_exchange_areas(v->h->element, pair, count, area);
+  for (size_t k = 0; k < count && v->visibility && !status; k++) {
     hr2di_visibility_class view = HR2DI_CLEAR;
-    status = pass_on(v, hr2di_occluded_area(v->sights, v->h, pair[k], &area[k], &view));
+    status = pass_on(v, hr2di_occluded_area(v->visibility, v->h, pair[k], &area[k], &view));
     if (view == HR2DI_BLOCKED) area[k] = 0;
   }
   return status;
@@ -158,7 +158,7 @@ static hr2d_status take_links(validator *v) {
   for (uint64_t first = 0; first < store->count; first += AREAS) {
     const uint64_t rest = store->count - first;
     size_t count = rest < AREAS ? (size_t)rest : AREAS;
-    v->watch.told.fraction = (double)first / (double)store->count;
+    v->watch.report.fraction = (double)first / (double)store->count;
     hr2d_link room[HR2DI_READ_LINKS]; /* AREAS divides a chunk, and is not more */
     const hr2d_link *link = hr2di_store_read(store, first, &count, room);
     const hr2d_status status = check_areas(v, link, count);
@@ -263,21 +263,22 @@ static int inherits(validator *v, hr2d_pair pair, uint32_t top, hr2di_facing fac
 }
 
 /* Sets *hidden to 1 if walls hide the elements of a pair from each other, else to 0. */
-static hr2d_status look(validator *v, hr2d_pair pair, int *hidden) {
+static hr2d_status examine(validator *v, hr2d_pair pair, int *hidden) {
   hr2di_visibility_class view = HR2DI_CLEAR;
   double area = 0;
   hr2d_status status = hr2di_watch_work(&v->watch, 1);
-  if (!status && v->sights) status = hr2di_occluded_area(v->sights, v->h, pair, &area, &view);
+  if (!status && v->visibility)
+    status = hr2di_occluded_area(v->visibility, v->h, pair, &area, &view);
   if (status) return pass_on(v, status);
-  *hidden = view == HR2DI_BLOCKED || (v->sights && area <= rounding_of(v, pair));
+  *hidden = view == HR2DI_BLOCKED || (v->visibility && area <= rounding_of(v, pair));
   return HR2D_OK;
 }
 
 /* Sets *hidden to 1 if walls hide e, or an ancestor of e, from f.  Because midpoints are
    rounded, walls that hide an ancestor may leave a gap to e. */
-static hr2d_status look_above(validator *v, uint32_t e, uint32_t f, int *hidden) {
+static hr2d_status view_above(validator *v, uint32_t e, uint32_t f, int *hidden) {
   for (;; e = v->h->parent[e]) {
-    const hr2d_status status = look(v, (hr2d_pair){e, f}, hidden);
+    const hr2d_status status = examine(v, (hr2d_pair){e, f}, hidden);
     if (status || *hidden || is_root(v, e)) return status;
   }
 }
@@ -287,11 +288,11 @@ static hr2d_status check_unseen(validator *v, uint32_t e, uint32_t f) {
   const hr2d_element *element = v->h->element;
   size_t count = 0;
   int above = 0;
-  const hr2d_status looked = look_above(v, e, f, &above);
+  const hr2d_status looked = view_above(v, e, f, &above);
   if (looked || above) return looked;
   for (hr2d_pair p = {e, f};;) {
     int hidden = 0;
-    const hr2d_status status = look(v, p, &hidden);
+    const hr2d_status status = examine(v, p, &hidden);
     if (status) return status;
     if (!hidden && !inherits(v, p, f, HR2DI_FACING_NONE)) {
       const uint32_t left = element[p.first].child, right = element[p.second].child;
@@ -320,7 +321,7 @@ static hr2d_status check_filled(validator *v, uint32_t e, uint32_t q, hr2di_faci
     }
     if (!v->node[f].whole) {
       const hr2d_status status =
-          facing == HR2DI_FACING_FULL && !v->sights
+          facing == HR2DI_FACING_FULL && !v->visibility
               ? fail(v, (hr2d_pair){e, f}, "see each other, but no link joins them")
               : check_unseen(v, e, f);
       if (status) return status;
@@ -423,14 +424,14 @@ hr2d_status hr2d_linkset_validate(hr2d_linkset *links) {
     status = out_of_memory(&v);
   } else {
     for (size_t e = 0; e < h->elements; e++) v.node[e] = (node){.links = NO_LINK, .by = NOBODY};
-    hr2di_patch_sights sights = {0};
+    hr2di_pair_visibility visibility = {0};
     status = HR2D_OK;
     if (h->scene->effect[HR2D_EFFECT_OCCLUSION].on) {
-      v.sights = &sights;
-      status = hr2di_patch_sights_init(&sights, h->scene, NULL, alloc, &v.watch);
+      v.visibility = &visibility;
+      status = hr2di_pair_visibility_init(&visibility, h->scene, NULL, alloc, &v.watch);
     }
     status = status ? out_of_memory(&v) : check_all(&v);
-    hr2di_patch_sights_clear(&sights);
+    hr2di_pair_visibility_clear(&visibility);
   }
   hr2di_alloc_free(alloc, v.pair);
   hr2di_alloc_free(alloc, v.spare);

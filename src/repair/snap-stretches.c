@@ -13,7 +13,7 @@ static int is_near(const hr2di_snapper *s, uint32_t v, uint32_t wall) {
 }
 
 /* Whether `wall` has to be cut at an end of patch `end` / 2. */
-static hr2d_status look_at_stretch(hr2di_snapper *s, uint32_t end, uint32_t wall) {
+static hr2d_status examine_stretch(hr2di_snapper *s, uint32_t end, uint32_t wall) {
   const uint32_t v = s->of_end[end], x = s->of_end[end ^ 1];
   const uint32_t a = s->of_end[2 * wall], b = s->of_end[2 * wall + 1];
   double t;
@@ -31,9 +31,9 @@ hr2d_status hr2di_snap_look_at_stretches(void *ctx, size_t i, size_t j) {
   hr2di_snapper *s = ctx;
   hr2d_status status = HR2D_OK;
   for (uint32_t e = 0; e < 2 && !status; e++)
-    status = look_at_stretch(s, (uint32_t)(2 * i) + e, (uint32_t)j);
+    status = examine_stretch(s, (uint32_t)(2 * i) + e, (uint32_t)j);
   for (uint32_t e = 0; e < 2 && !status; e++)
-    status = look_at_stretch(s, (uint32_t)(2 * j) + e, (uint32_t)i);
+    status = examine_stretch(s, (uint32_t)(2 * j) + e, (uint32_t)i);
   return status;
 }
 

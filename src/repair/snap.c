@@ -44,14 +44,14 @@ static uint32_t *cell_at(const hr2di_snapper *s, double column, double row) {
 /* The nearest vertex within the tolerance, or NONE. */
 static uint32_t find_vertex(const hr2di_snapper *s, hr2d_point p) {
   const double column = floor(p.x / s->tolerance), row = floor(p.y / s->tolerance);
-  double least = s->tolerance;
+  double min = s->tolerance;
   uint32_t nearest = NONE;
   for (int k = 0; k < 9; k++)
     for (uint32_t m = *cell_at(s, column + k % 3 - 1, row + k / 3 - 1); m != NONE;
          m = s->v[m].next) {
       const double d = hr2di_snap_distance(p, s->v[m].start);
-      if (d < least || (d == least && m < nearest)) {
-        least = d;
+      if (d < min || (d == min && m < nearest)) {
+        min = d;
         nearest = m;
       }
     }
@@ -80,7 +80,7 @@ static hr2d_status join_ends(hr2di_snapper *s) {
   return HR2D_OK;
 }
 
-static void look_at_foot(hr2di_snapper *s, uint32_t v, uint32_t wall) {
+static void examine_foot(hr2di_snapper *s, uint32_t v, uint32_t wall) {
   const uint32_t a = s->of_end[2 * wall], b = s->of_end[2 * wall + 1];
   double t;
   if (a == b || a == v || b == v) return;
@@ -94,11 +94,11 @@ static void look_at_foot(hr2di_snapper *s, uint32_t v, uint32_t wall) {
   s->v[v].distance = d;
 }
 
-static hr2d_status look_at_pair(void *ctx, size_t i, size_t j) {
+static hr2d_status examine_pair(void *ctx, size_t i, size_t j) {
   hr2di_snapper *s = ctx;
   for (size_t e = 0; e < 2; e++) {
-    look_at_foot(s, s->of_end[2 * i + e], (uint32_t)j);
-    look_at_foot(s, s->of_end[2 * j + e], (uint32_t)i);
+    examine_foot(s, s->of_end[2 * i + e], (uint32_t)j);
+    examine_foot(s, s->of_end[2 * j + e], (uint32_t)i);
   }
   return HR2D_OK;
 }
@@ -116,7 +116,7 @@ static hr2d_status sweep(hr2di_snapper *s, hr2d_status (*visit)(void *, size_t, 
 
 /* Whether something moved by more than a rounding. */
 static int place_feet(hr2di_snapper *s) {
-  double most = 0;
+  double max = 0;
   for (uint32_t k = 0; k < s->vertices; k++) {
     hr2di_snap_vertex *v = &s->v[k];
     double t;
@@ -125,14 +125,14 @@ static int place_feet(hr2di_snapper *s) {
                             *b = &s->v[s->of_end[2 * v->wall + 1]];
     const hr2d_point foot = hr2di_snap_project(v->start, a->at, b->at, &t);
     if (!(t > 0 && t < 1)) continue;
-    most = fmax(most, hr2di_snap_distance(foot, v->at));
+    max = fmax(max, hr2di_snap_distance(foot, v->at));
     v->at = foot;
   }
-  return most > 0x1p-52;
+  return max > 0x1p-52;
 }
 
 static hr2d_status stand(hr2di_snapper *s) {
-  hr2d_status status = sweep(s, look_at_pair);
+  hr2d_status status = sweep(s, examine_pair);
   for (int round = 0; round < MOST_ROUNDS && !status; round++) {
     status = hr2di_watch_work(s->watch, s->vertices / 4 + 1);
     if (!place_feet(s)) break;

@@ -63,8 +63,7 @@ static double extent(const hr2d_scene *scene) {
 
 /* *convex is whether no patch has an end of another behind it, by exact signs.  One or two
    patches always count as convex: nothing can stand between them. */
-static hr2d_status look_whether_convex(const hr2d_scene *scene, int *convex,
-                                       hr2di_watch *watch) {
+static hr2d_status examine_convexity(const hr2d_scene *scene, int *convex, hr2di_watch *watch) {
   hr2di_hull hull;
   *convex = 1;
   if (scene->patches <= 2) return HR2D_OK;
@@ -82,7 +81,7 @@ static hr2d_status check_offset(hr2d_scene *scene, hr2di_watch *watch) {
   const double across = extent(scene);
   int convex = 1;
   if (across >= FEWEST_ROUNDINGS * 0x1p-50) return HR2D_OK;
-  const hr2d_status status = look_whether_convex(scene, &convex, watch);
+  const hr2d_status status = examine_convexity(scene, &convex, watch);
   if (status) return hr2di_scene_fail(scene, status, watch, "the checks");
   if (convex) return HR2D_OK;
   return hr2di_message_fail(

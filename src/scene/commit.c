@@ -98,7 +98,7 @@ static hr2d_status commit(hr2d_scene *scene, unsigned copies, hr2di_watch *watch
   if (hr2di_symmetry_wanted(&scene->symmetry))
     status = hr2di_scene_unfold(scene, copies, watch);
   for (size_t k = 0; k < parts && !status; k++) {
-    watch->told.fraction = (double)k / (double)parts;
+    watch->report.fraction = (double)k / (double)parts;
     status = part[k](scene, watch);
   }
   if (status) hr2di_scene_clear_commit(scene);
@@ -107,13 +107,13 @@ static hr2d_status commit(hr2d_scene *scene, unsigned copies, hr2di_watch *watch
 
 /* Takes more images of a period until the patches see none that are cut off. */
 static hr2d_status commit_images(hr2d_scene *scene, hr2di_watch *watch) {
-  unsigned copies = 0, most = 0;
+  unsigned copies = 0, max = 0;
   hr2d_status status = hr2di_symmetry_find(scene, watch);
-  if (!status) hr2di_symmetry_copies(scene, &copies, &most);
+  if (!status) hr2di_symmetry_copies(scene, &copies, &max);
   if (status) return status;
   for (;; copies *= 2) {
     status = commit(scene, copies, watch);
-    if (status || !hr2di_symmetry_cuts(&scene->symmetry) || copies >= most) break;
+    if (status || !hr2di_symmetry_cuts(&scene->symmetry) || copies >= max) break;
     hr2di_scene_clear_commit(scene);
   }
   if (!status) status = check_far_sky(scene);

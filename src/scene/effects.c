@@ -102,7 +102,7 @@ typedef struct touching {
 } touching;
 
 /* Patches that touch have boxes that meet, or are of one star. */
-static hr2d_status look_at_touching(void *ctx, size_t i, size_t j) {
+static hr2d_status examine_touching(void *ctx, size_t i, size_t j) {
   touching *t = ctx;
   const hr2d_segment *p = &t->scene->patch[i].scaled, *q = &t->scene->patch[j].scaled;
   if (is_earlier(&t->back, i, j) && hr2di_point_same(p->a, q->b) &&
@@ -114,7 +114,7 @@ static hr2d_status look_at_touching(void *ctx, size_t i, size_t j) {
 }
 
 /* Those of a star touch, and the first that see each other are found soon, if any do. */
-static hr2d_status look_at_star(touching *t, const uint32_t *member, size_t count,
+static hr2d_status examine_star(touching *t, const uint32_t *member, size_t count,
                                 hr2di_watch *watch) {
   hr2d_status status = HR2D_OK;
   for (size_t k = 0; k < count && !status; k++) {
@@ -122,7 +122,7 @@ static hr2d_status look_at_star(touching *t, const uint32_t *member, size_t coun
     for (size_t m = k + 1; m < count && !status; m++) {
       if (!is_earlier(&t->corner, member[k], member[m])) break;
       if (m % 8 == 0) status = hr2di_watch_work(watch, 1);
-      if (!status) status = look_at_touching(t, member[k], member[m]);
+      if (!status) status = examine_touching(t, member[k], member[m]);
     }
   }
   return status;
@@ -135,11 +135,11 @@ static hr2d_status find_touching(touching *t, hr2di_watch *watch) {
   hr2d_status status = hr2di_stars_init(&stars, &scene->alloc, first, scene->patches,
                                         sizeof *scene->patch, watch);
   for (uint32_t k = 0; k < stars.count && !status; k++)
-    status = look_at_star(t, &stars.member[stars.star[k].first],
+    status = examine_star(t, &stars.member[stars.star[k].first],
                           stars.star[k].last - stars.star[k].first, watch);
   if (!status)
     status = hr2di_crossings_find(&scene->alloc, first, scene->patches, sizeof *scene->patch,
-                                  &stars, look_at_touching, t, watch);
+                                  &stars, examine_touching, t, watch);
   hr2di_stars_clear(&stars);
   return status;
 }

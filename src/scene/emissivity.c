@@ -79,11 +79,11 @@ static double surplus(const hr2d_scene *scene, size_t patch, double irradiance, 
 
 /* By halving, from an interval at whose ends the surplus has different signs. */
 double hr2di_emissivity_radiance(const hr2d_scene *scene, size_t patch, double irradiance) {
-  const double h = irradiance, least = surplus(scene, patch, h, 0, 0);
+  const double h = irradiance, min = surplus(scene, patch, h, 0, 0);
   const double flux = scene->patch[patch].light->given;
   if (!hr2di_emissivity_depends(scene, patch))
     return h + flux / hr2d_scene_emissivity(scene, patch, 0);
-  if (isnan(least) || !(least <= flux)) return flux - least;
+  if (isnan(min) || !(min <= flux)) return flux - min;
   double low = 0, high = fmax(h, fabs(flux)), over = surplus(scene, patch, h, high, flux);
   while (over < 0 && high < 1e300) {
     low = high;

@@ -33,7 +33,7 @@ typedef struct finder {
                           there, and from there on */
   uint32_t *below;     /* per box: the least patch in it */
   common_ends *common; /* per box */
-  uint32_t least;      /* of all pairs so far */
+  uint32_t min;        /* of all pairs so far */
   hr2di_watch *watch;
 } finder;
 
@@ -57,7 +57,7 @@ static void index_runs(finder *f) {
   }
 }
 
-static uint32_t least_of_run(const finder *f, uint32_t run) {
+static uint32_t min_of_run(const finder *f, uint32_t run) {
   return f->down[f->scene->runs.run[run].first];
 }
 
@@ -99,7 +99,7 @@ static void index_boxes(finder *f) {
       f->below[k] = lesser(f->below[box->below], f->below[box->below + 1]);
     else
       for (uint32_t r = f->runs_of[box->wall]; r < f->runs_of[box->wall + 1]; r++)
-        f->below[k] = lesser(f->below[k], least_of_run(f, r));
+        f->below[k] = lesser(f->below[k], min_of_run(f, r));
   }
 }
 
@@ -121,10 +121,10 @@ static hr2d_status begin(finder *f) {
 /* Whether a line has points of a box on both sides; exact. */
 static int crosses_box(hr2d_segment line, const hr2di_box *box) {
   const int right = line.b.y > line.a.y, down = line.b.x < line.a.x;
-  const hr2d_point most_left = {right ? box->x0 : box->x1, down ? box->y0 : box->y1},
-                   most_right = {right ? box->x1 : box->x0, down ? box->y1 : box->y0};
-  return hr2di_orient_sign(line.a, line.b, most_left) > 0 &&
-         hr2di_orient_sign(line.a, line.b, most_right) < 0;
+  const hr2d_point max_left = {right ? box->x0 : box->x1, down ? box->y0 : box->y1},
+                   max_right = {right ? box->x1 : box->x0, down ? box->y1 : box->y0};
+  return hr2di_orient_sign(line.a, line.b, max_left) > 0 &&
+         hr2di_orient_sign(line.a, line.b, max_right) < 0;
 }
 
 /* The last place in a run whose patch has its start on the side `sign` of a line, as the first
@@ -150,7 +150,7 @@ static uint32_t crossed(const finder *f, hr2di_run r, hr2d_segment line) {
 }
 
 /* The least patch of a run with an end in front of j, or UINT32_MAX. */
-static uint32_t least_in_front(const finder *f, hr2di_run r, hr2d_segment j) {
+static uint32_t min_in_front(const finder *f, hr2di_run r, hr2d_segment j) {
   if (hr2di_orient_sign(j.a, j.b, patch_at(f, r.first).a) > 0)
     return f->up[last_before(f, r, j, 1)];
   if (hr2di_orient_sign(j.a, j.b, patch_at(f, r.last - 1).b) <= 0) return UINT32_MAX;
@@ -165,7 +165,7 @@ static uint32_t least_in_front(const finder *f, hr2di_run r, hr2d_segment j) {
   return f->down[low];
 }
 
-static void look_at_wall(finder *f, hr2di_run r, hr2d_segment line, uint32_t wall) {
+static void examine_wall(finder *f, hr2di_run r, hr2d_segment line, uint32_t wall) {
   const hr2di_runs *runs = &f->scene->runs;
   const hr2d_segment w = f->scene->walls.wall[wall].at;
   if (hr2di_orient_sign(line.a, line.b, w.a) * hr2di_orient_sign(line.a, line.b, w.b) >= 0)
@@ -173,17 +173,17 @@ static void look_at_wall(finder *f, hr2di_run r, hr2d_segment line, uint32_t wal
   for (uint32_t k = f->runs_of[wall]; k < f->runs_of[wall + 1]; k++) {
     const uint32_t place = crossed(f, runs->run[k], line);
     if (place == runs->run[k].last) continue;
-    const uint32_t i = least_in_front(f, r, patch_at(f, place));
-    if (i != UINT32_MAX) f->least = lesser(f->least, lesser(i, runs->patch[place]));
+    const uint32_t i = min_in_front(f, r, patch_at(f, place));
+    if (i != UINT32_MAX) f->min = lesser(f->min, lesser(i, runs->patch[place]));
   }
 }
 
 /* Looks for lesser numbers in pairs of the patches of one run with others. */
-static hr2d_status look_along(finder *f, uint32_t run) {
+static hr2d_status trace_ray(finder *f, uint32_t run) {
   const hr2di_walls *walls = &f->scene->walls;
   const hr2di_run r = f->scene->runs.run[run];
   const hr2d_segment line = patch_at(f, r.first);
-  const uint32_t own = least_of_run(f, run);
+  const uint32_t own = min_of_run(f, run);
   uint32_t stack[HR2DI_BOX_DEPTH], count = 0;
   hr2d_status status = HR2D_OK;
   stack[count++] = 0;
@@ -191,11 +191,11 @@ static hr2d_status look_along(finder *f, uint32_t run) {
     const uint32_t k = stack[--count];
     const hr2di_box *box = &walls->box[k];
     status = hr2di_watch_work(f->watch, 1);
-    if ((own >= f->least && f->below[k] >= f->least) || !crosses_box(line, box) ||
+    if ((own >= f->min && f->below[k] >= f->min) || !crosses_box(line, box) ||
         passes_common_end(line, &f->common[k]))
       continue;
     if (box->wall != HR2DI_NO_WALL) {
-      look_at_wall(f, r, line, box->wall);
+      examine_wall(f, r, line, box->wall);
     } else {
       stack[count++] = box->below + 1;
       stack[count++] = box->below;
@@ -205,22 +205,22 @@ static hr2d_status look_along(finder *f, uint32_t run) {
 }
 
 /* No patch crosses the line of one on the hull. */
-static hr2d_status find_least(finder *f, const hr2di_hull *hull) {
+static hr2d_status find_min(finder *f, const hr2di_hull *hull) {
   hr2d_status status = begin(f);
-  for (uint32_t k = 0; k < f->scene->runs.runs && f->least > 0 && !status; k++) {
+  for (uint32_t k = 0; k < f->scene->runs.runs && f->min > 0 && !status; k++) {
     status = hr2di_watch_work(f->watch, 4);
     if (!status && hr2di_hull_sides(hull, patch_at(f, f->scene->runs.run[k].first)) == 3)
-      status = look_along(f, k);
+      status = trace_ray(f, k);
   }
   return status;
 }
 
 hr2d_status hr2di_facing_in_part_find(const hr2d_scene *scene, const hr2di_hull *hull,
                                       hr2di_first_pair *found, hr2di_watch *watch) {
-  finder f = {.scene = scene, .least = UINT32_MAX, .watch = watch};
+  finder f = {.scene = scene, .min = UINT32_MAX, .watch = watch};
   *found = (hr2di_first_pair){0};
-  hr2d_status status = find_least(&f, hull);
-  const size_t n = scene->patches, i = f.least < n ? f.least : n; /* so that i + 1 is not 0 */
+  hr2d_status status = find_min(&f, hull);
+  const size_t n = scene->patches, i = f.min < n ? f.min : n; /* so that i + 1 is not 0 */
   for (size_t j = i + 1; j < n && !found->exists && !status; j++) {
     if (j % 16 == 0) status = hr2di_watch_work(watch, 8);
     if (hr2di_facing_of(&scene->patch[i].scaled, &scene->patch[j].scaled) == HR2DI_FACING_PART)

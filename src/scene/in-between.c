@@ -21,10 +21,10 @@
 #include "scene/in-between.h"
 
 #include "base/alloc.h"
+#include "beams/line-class-list.h"
 #include "geometry/vector.h"
-#include "occlusion/screens.h"
+#include "occlusion/clipped-occluders.h"
 #include "scene/scene-impl.h"
-#include "sight/sight-list.h"
 
 /* What is known of a side of a wall edge. */
 enum {
@@ -40,16 +40,16 @@ typedef struct search {
   hr2di_wall_side from;         /* of the wall that may stand between */
   hr2di_wall_side to;           /* where `back` comes from */
   hr2di_walk out, beyond, back; /* from that side, through what it sees, through the wall */
-  hr2di_walk glance;            /* from the other side of the wall */
+  hr2di_walk ray_filter;        /* from the other side of the wall */
   hr2d_point *room;
   size_t points;
-  hr2di_sight_list whole, near, both; /* restricted to nothing, to one patch, to two */
+  hr2di_line_class_list whole, near, both; /* restricted to nothing, to one patch, to two */
   hr2di_occlusion *found;
   int seen; /* there is a front behind the wall */
 } search;
 
 /* Ends a walk. */
-static hr2d_status see(void *ctx, const hr2di_sight *s, hr2di_wall_side j) {
+static hr2d_status see(void *ctx, const hr2di_line_class *s, hr2di_wall_side j) {
   (void)s;
   (void)j;
   ((search *)ctx)->seen = 1;
@@ -61,10 +61,10 @@ static hr2d_status see(void *ctx, const hr2di_sight *s, hr2di_wall_side j) {
 static int hides(const hr2d_scene *scene, size_t patch, size_t i, size_t j) {
   const hr2d_segment p = scene->patch[i].scaled, q = scene->patch[j].scaled;
   hr2di_opening opening;
-  hr2di_screen screen;
+  hr2di_clipped_occluder screen;
   return patch != i && patch != j &&
          hr2di_opening_init(&opening, hr2di_facing_of(&p, &q), p, q) &&
-         hr2di_screen_of(&screen, &opening, scene->patch[patch].scaled);
+         hr2di_clipped_occluder_of(&screen, &opening, scene->patch[patch].scaled);
 }
 
 /* The first patch on either side of the wall between that hides i and j from each other. */
@@ -84,15 +84,15 @@ static hr2d_status name(search *f, size_t i, size_t j) {
 }
 
 /* Looks for a patch on side `to` that has lines of the near patch. */
-static hr2d_status look_at_parts(search *f, hr2di_wall_side to, size_t near) {
+static hr2d_status examine_parts(search *f, hr2di_wall_side to, size_t near) {
   const hr2di_side_parts *all = &f->scene->parts;
-  const hr2di_kept_sight kept = f->near.sight[0];
+  const hr2di_stored_line_class kept = f->near.line_class[0];
   for (uint32_t k = all->of_side[to].parts.first; k < all->of_side[to].parts.last; k++) {
     hr2d_status status = hr2di_watch_work(f->out.watch, 4);
     if (all->part[k].patch == HR2DI_NOBODY) continue;
     if (!status)
-      status =
-          hr2di_sight_list_restrict(&f->both, &f->near, 0, 1, kept.near, all->part[k].at, NULL);
+      status = hr2di_line_class_list_restrict(&f->both, &f->near, 0, 1, kept.near,
+                                              all->part[k].at, NULL);
     if (status) return status;
     if (f->both.count == 0) continue;
     status = name(f, near, all->part[k].patch);
@@ -101,46 +101,48 @@ static hr2d_status look_at_parts(search *f, hr2di_wall_side to, size_t near) {
   return HR2D_OK;
 }
 
-/* A sight from side `to` through the wall to side k: between patches?  Ends a walk if so. */
-static hr2d_status find(void *ctx, const hr2di_sight *s, hr2di_wall_side k) {
+/* A line class from side `to` through the wall to side k: between patches?  Ends a walk if so.
+ */
+static hr2d_status find(void *ctx, const hr2di_line_class *s, hr2di_wall_side k) {
   search *f = ctx;
   const hr2di_side_parts *all = &f->scene->parts;
   const hr2d_segment near = hr2di_wall_side_at(f->out.in, f->to),
                      far = hr2di_wall_side_at(f->out.in, k);
   const hr2di_parts parts = all->of_side[f->to].parts;
-  hr2di_sight known = *s;
-  known.ends = (hr2di_point_same(s->left[0], near.a) ? HR2DI_SIGHT_A : 0u) |
-               (hr2di_point_same(s->right[0], near.b) ? HR2DI_SIGHT_B : 0u) |
-               (hr2di_point_same(s->right[s->rights - 1], far.a) ? HR2DI_SIGHT_C : 0u) |
-               (hr2di_point_same(s->left[s->lefts - 1], far.b) ? HR2DI_SIGHT_D : 0u);
-  hr2di_sight_list_cut(&f->whole, 0);
-  hr2d_status status = hr2di_sight_list_add(&f->whole, &known, near, far);
+  hr2di_line_class known = *s;
+  known.ends = (hr2di_point_same(s->left[0], near.a) ? HR2DI_LINE_CLASS_A : 0u) |
+               (hr2di_point_same(s->right[0], near.b) ? HR2DI_LINE_CLASS_B : 0u) |
+               (hr2di_point_same(s->right[s->rights - 1], far.a) ? HR2DI_LINE_CLASS_C : 0u) |
+               (hr2di_point_same(s->left[s->lefts - 1], far.b) ? HR2DI_LINE_CLASS_D : 0u);
+  hr2di_line_class_list_cut(&f->whole, 0);
+  hr2d_status status = hr2di_line_class_list_add(&f->whole, &known, near, far);
   for (uint32_t p = parts.first; p < parts.last && !status; p++) {
     if (all->part[p].patch == HR2DI_NOBODY) continue;
-    hr2di_sight_list_cut(&f->near, 0);
-    hr2di_sight_list_cut(&f->both, 0);
+    hr2di_line_class_list_cut(&f->near, 0);
+    hr2di_line_class_list_cut(&f->both, 0);
     status = hr2di_watch_work(f->out.watch, 4);
     if (!status)
-      status = hr2di_sight_list_restrict(&f->near, &f->whole, 0, 1, all->part[p].at, far, NULL);
-    if (!status && f->near.count > 0) status = look_at_parts(f, k, all->part[p].patch);
+      status =
+          hr2di_line_class_list_restrict(&f->near, &f->whole, 0, 1, all->part[p].at, far, NULL);
+    if (!status && f->near.count > 0) status = examine_parts(f, k, all->part[p].patch);
   }
   return status;
 }
 
-/* A sight from the wall to a front: is there a front behind the wall? */
-static hr2d_status turn_back(void *ctx, const hr2di_sight *s, hr2di_wall_side j) {
+/* A line class from the wall to a front: is there a front behind the wall? */
+static hr2d_status turn_back(void *ctx, const hr2di_line_class *s, hr2di_wall_side j) {
   search *f = ctx;
-  hr2di_sight turned;
+  hr2di_line_class turned;
   if (hr2di_alloc_reserve(&f->scene->alloc, &f->room, &f->points, s->lefts + s->rights,
                           sizeof *f->room))
     return HR2D_ENOMEM;
-  hr2di_sight_turn(s, f->room, &turned);
+  hr2di_line_class_turn(s, f->room, &turned);
   f->to = j;
   return hr2di_walk_on(&f->back, f->from ^ 1, &turned);
 }
 
-/* A sight from the wall to any side. */
-static hr2d_status look_at(void *ctx, const hr2di_sight *s, hr2di_wall_side j) {
+/* A line class from the wall to any side. */
+static hr2d_status examine(void *ctx, const hr2di_line_class *s, hr2di_wall_side j) {
   search *f = ctx;
   hr2d_status status = HR2D_OK;
   if (f->side[j] & FRONT) status = turn_back(ctx, s, j);
@@ -168,17 +170,17 @@ static hr2d_status learn_sides(search *f, const hr2di_hull *hull) {
 }
 
 /* From the back, or, if both sides have fronts everywhere, from either side. */
-static hr2d_status look_from(search *f, hr2di_wall_side side) {
+static hr2d_status view_from(search *f, hr2di_wall_side side) {
   if (f->side[side] & HULL) return HR2D_OK;
   if (!(f->side[side] & GAPS) && (side & 1 || f->side[side ^ 1] & GAPS)) return HR2D_OK;
   f->seen = 0;
-  const hr2d_status status = hr2di_walk_from(&f->glance, side ^ 1, NULL);
+  const hr2d_status status = hr2di_walk_from(&f->ray_filter, side ^ 1, NULL);
   if (!f->seen) return status;
   f->from = side;
   return hr2di_walk_from(&f->out, side, NULL);
 }
 
-static hr2di_walk walk_of(search *f, const unsigned char *wanted, hr2di_sight_fn take,
+static hr2di_walk walk_of(search *f, const unsigned char *wanted, hr2di_line_class_fn take,
                           hr2di_watch *watch) {
   return (hr2di_walk){.in = &f->scene->plane.triangulation,
                       .wanted = wanted,
@@ -203,12 +205,12 @@ static size_t stride_of(size_t n) {
 }
 
 /* Sides by the stride: neighbours mostly find alike, that is nothing, or the same. */
-static hr2d_status look_from_all(search *f, size_t sides) {
+static hr2d_status view_from_all(search *f, size_t sides) {
   const size_t stride = stride_of(sides);
   hr2d_status status = HR2D_OK;
   for (size_t k = 0, side = 0; k < sides && !status; k++, side = (side + stride) % sides) {
     status = hr2di_watch_work(f->out.watch, 1);
-    if (!status) status = look_from(f, (hr2di_wall_side)side);
+    if (!status) status = view_from(f, (hr2di_wall_side)side);
   }
   return status;
 }
@@ -217,10 +219,10 @@ static void end(search *f) {
   hr2di_walk_clear(&f->out);
   hr2di_walk_clear(&f->beyond);
   hr2di_walk_clear(&f->back);
-  hr2di_walk_clear(&f->glance);
-  hr2di_sight_list_clear(&f->whole);
-  hr2di_sight_list_clear(&f->near);
-  hr2di_sight_list_clear(&f->both);
+  hr2di_walk_clear(&f->ray_filter);
+  hr2di_line_class_list_clear(&f->whole);
+  hr2di_line_class_list_clear(&f->near);
+  hr2di_line_class_list_clear(&f->both);
   hr2di_alloc_free(&f->scene->alloc, f->room);
   hr2di_alloc_free(&f->scene->alloc, f->side);
   hr2di_alloc_free(&f->scene->alloc, f->any);
@@ -229,19 +231,19 @@ static void end(search *f) {
 hr2d_status hr2di_in_between(const hr2d_scene *scene, const hr2di_hull *hull,
                              hr2di_occlusion *found, hr2di_watch *watch) {
   const size_t sides = 2 * scene->plane.triangulation.edges;
-  const hr2di_sight_list list = {.alloc = scene->alloc};
+  const hr2di_line_class_list list = {.alloc = scene->alloc};
   search f = {.scene = scene, .whole = list, .near = list, .both = list, .found = found};
   *found = (hr2di_occlusion){0};
   f.side = hr2di_alloc_zero(&scene->alloc, sides, 1);
   f.any = hr2di_alloc(&scene->alloc, sides, 1);
-  f.out = walk_of(&f, f.any, look_at, watch);
+  f.out = walk_of(&f, f.any, examine, watch);
   f.beyond = walk_of(&f, scene->parts.wanted, turn_back, watch);
   f.back = walk_of(&f, scene->parts.wanted, find, watch);
-  f.glance = walk_of(&f, scene->parts.wanted, see, watch);
+  f.ray_filter = walk_of(&f, scene->parts.wanted, see, watch);
   hr2d_status status = f.side && f.any ? HR2D_OK : HR2D_ENOMEM;
   for (size_t k = 0; k < sides && !status; k++) f.any[k] = 1;
   if (!status) status = learn_sides(&f, hull);
-  if (!status) status = look_from_all(&f, sides);
+  if (!status) status = view_from_all(&f, sides);
   end(&f);
   return found->exists ? HR2D_OK : status;
 }

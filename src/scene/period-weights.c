@@ -207,16 +207,16 @@ static int is_mirrored(const hr2di_generators *by) {
    below the highest point that the next image is in its way meets that one. */
 static double open_height(const hr2d_scene *scene, hr2d_point s, double height) {
   const hr2d_point d = scene->symmetry.by.period;
-  const double across = s.x * d.y - s.y * d.x, apart = fabs(across);
+  const double across = s.x * d.y - s.y * d.x, spacing = fabs(across);
   const double size = copysign(hypot(d.x, d.y), across); /* light comes from where v is high */
   double top = -HUGE_VAL, closed = -HUGE_VAL;
-  if (!(apart > 0) || is_mirrored(&scene->symmetry.by)) return height;
+  if (!(spacing > 0) || is_mirrored(&scene->symmetry.by)) return height;
   for (size_t k = 0; k < hr2di_scene_cell(scene); k++) {
     const hr2d_point a = scene->patch[k].given.a, b = scene->patch[k].given.b;
     const double v = (d.x * a.y - d.y * a.x) / size, w = (d.x * b.y - d.y * b.x) / size;
     const double wide = fabs(s.x * (b.y - a.y) - s.y * (b.x - a.x));
     top = fmax(top, fmax(v, w));
-    if (wide >= apart) closed = fmax(closed, fmax(v, w) - fabs(v - w) * apart / wide);
+    if (wide >= spacing) closed = fmax(closed, fmax(v, w) - fabs(v - w) * spacing / wide);
   }
   return fmin(height, top - closed);
 }
@@ -233,25 +233,25 @@ static double copies_for(const hr2d_scene *scene, size_t sun, double height) {
   return run_of(s, d, open_height(scene, s, height)) + 3;
 }
 
-void hr2di_symmetry_copies(hr2d_scene *scene, unsigned *least, unsigned *most) {
+void hr2di_symmetry_copies(hr2d_scene *scene, unsigned *min, unsigned *max) {
   hr2di_symmetry *symmetry = &scene->symmetry;
   const hr2d_point d = symmetry->by.period;
-  *least = *most = symmetry->by.periodic;
+  *min = *max = symmetry->by.periodic;
   symmetry->low_suns = symmetry->low_sun = 0;
-  if (!*least) return;
+  if (!*min) return;
   const double period = hypot(d.x, d.y), height = across(scene, d);
   const double patches = ldexp((double)scene->patches, (int)symmetry->by.mirrors);
-  while (*most < ENOUGH * fmax(height / period, 1) && *most < MOST_COPIES &&
-         (4 * *most + 1) * patches <= MANY_PATCHES)
-    *most *= 2;
+  while (*max < ENOUGH * fmax(height / period, 1) && *max < MOST_COPIES &&
+         (4 * *max + 1) * patches <= MANY_PATCHES)
+    *max *= 2;
   for (size_t k = 0; k < scene->sun_bands; k++) {
     const double copies = copies_for(scene, k, height);
     if (copies <= MOST_COPIES)
-      while (*least < copies) *least *= 2;
+      while (*min < copies) *min *= 2;
     else if (!symmetry->low_suns++)
       symmetry->low_sun = k;
   }
-  if (*most < *least) *most = *least;
+  if (*max < *min) *max = *min;
 }
 
 int hr2di_symmetry_is_low(const hr2d_scene *scene, size_t sun) {

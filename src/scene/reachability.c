@@ -3,8 +3,8 @@
    sees the next.  No other patch needs a link.
 
    A flood over sides of wall edges: beams leave a side with lit patches whose light has not
-   been sent yet, all of them in one walk.  The lines of a sight that leave a stretch of the
-   side arrive on a stretch of another side, whose ends two binary searches find: all parts
+   been sent yet, all of them in one walk.  The lines of a line class that leave a stretch of
+   the side arrive on a stretch of another side, whose ends two binary searches find: all parts
    there are lit.  Parts that are lit already are skipped.
 
    Beams stay in one face of the plane, a set of triangles with free edges between them.  A side
@@ -187,21 +187,21 @@ static hr2d_status begin_contacts(flood *f) {
   return status;
 }
 
-/* Which of the parts along the far side some line of a sight meets. */
-static hr2di_parts met(const flood *f, const hr2di_sight *s, hr2di_parts all) {
+/* Which of the parts along the far side some line of a line class meets. */
+static hr2di_parts met(const flood *f, const hr2di_line_class *s, hr2di_parts all) {
   const hr2di_side_part *part = f->scene->parts.part;
-  hr2di_sight child;
+  hr2di_line_class child;
   hr2di_parts found = all;
   for (uint32_t high = all.last - 1; found.first < high;) {
     const uint32_t middle = found.first + (high - found.first) / 2;
-    if (hr2di_sight_restrict(s, HR2DI_SIGHT_D, part[middle].at.b, f->room, &child))
+    if (hr2di_line_class_restrict(s, HR2DI_LINE_CLASS_D, part[middle].at.b, f->room, &child))
       high = middle;
     else
       found.first = middle + 1;
   }
   for (uint32_t low = found.first + 1; low < found.last;) {
     const uint32_t middle = low + (found.last - low) / 2;
-    if (hr2di_sight_restrict(s, HR2DI_SIGHT_C, part[middle].at.a, f->room, &child))
+    if (hr2di_line_class_restrict(s, HR2DI_LINE_CLASS_C, part[middle].at.a, f->room, &child))
       low = middle + 1;
     else
       found.last = middle;
@@ -211,17 +211,19 @@ static hr2di_parts met(const flood *f, const hr2di_sight *s, hr2di_parts all) {
 
 /* Leaves the lines from the stretch that is sent from, with points in *room; 0 if there are
    none. */
-static int trim(const flood *f, hr2di_sight *s, hr2d_point **room) {
+static int trim(const flood *f, hr2di_line_class *s, hr2d_point **room) {
   const hr2di_side_part *part = f->scene->parts.part;
   const hr2di_parts all = f->scene->parts.of_side[f->side].parts, own = f->stretch;
-  hr2di_sight child;
+  hr2di_line_class child;
   if (own.first > all.first) {
-    if (!hr2di_sight_restrict(s, HR2DI_SIGHT_A, part[own.first].at.a, *room, &child)) return 0;
+    if (!hr2di_line_class_restrict(s, HR2DI_LINE_CLASS_A, part[own.first].at.a, *room, &child))
+      return 0;
     *s = child;
     *room += child.lefts + child.rights;
   }
   if (own.last < all.last) {
-    if (!hr2di_sight_restrict(s, HR2DI_SIGHT_B, part[own.last - 1].at.b, *room, &child))
+    if (!hr2di_line_class_restrict(s, HR2DI_LINE_CLASS_B, part[own.last - 1].at.b, *room,
+                                   &child))
       return 0;
     *s = child;
     *room += child.lefts + child.rights;
@@ -229,11 +231,12 @@ static int trim(const flood *f, hr2di_sight *s, hr2d_point **room) {
   return 1;
 }
 
-/* Lights the dark parts that a sight ends on.  Each restriction has room for one point more. */
-static hr2d_status take(void *ctx, const hr2di_sight *s, hr2di_wall_side j) {
+/* Lights the dark parts that a line class ends on.  Each restriction has room for one point
+ * more. */
+static hr2d_status take(void *ctx, const hr2di_line_class *s, hr2di_wall_side j) {
   flood *f = ctx;
   const hr2di_parts all = f->scene->parts.of_side[j].parts;
-  hr2di_sight own = *s;
+  hr2di_line_class own = *s;
   if (hr2di_alloc_reserve(&f->scene->alloc, &f->room, &f->points,
                           3 * (s->lefts + s->rights + 3), sizeof *f->room))
     return HR2D_ENOMEM;

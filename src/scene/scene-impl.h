@@ -77,7 +77,8 @@ struct hr2d_scene {
     int forced;
     char reason[400];
   } effect[HR2D_EFFECT_COUNT];
-  const hr2d_scene *origin;  /* of a settled scene, see settled.h; otherwise NULL, */
+  const hr2d_scene *origin;  /* of a scene of frozen temperatures, see frozen-temperatures.h;
+                                otherwise NULL, */
   struct hr2di_found *found; /* as this; per patch */
 };
 

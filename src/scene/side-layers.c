@@ -51,8 +51,8 @@ static int faces_right(const layer *l) {
 /* From left to right. */
 static int by_place(const void *left, const void *right) {
   const layer *l = left, *r = right;
-  const double apart = l->left - r->left;
-  if (fabs(apart) > ALIKE * (l->digits + r->digits)) return apart > 0 ? -1 : 1;
+  const double difference = l->left - r->left;
+  if (fabs(difference) > ALIKE * (l->digits + r->digits)) return difference > 0 ? -1 : 1;
   if (faces_right(l) != faces_right(r)) return faces_right(l) - faces_right(r);
   return l->edge < r->edge ? -1 : 1;
 }
@@ -131,8 +131,8 @@ static hr2d_status face(layers *c, hr2di_parts right, hr2di_parts left, hr2d_seg
     const uint32_t i = right.last - 1, j = left.first;
     const span p = span_of(c, i, edge), q = span_of(c, j, edge);
     const double shared = fmin(p.to, q.to) - fmax(p.from, q.from);
-    const double least = fmin(HR2DI_PART_ROUNDING, fmin(p.to - p.from, q.to - q.from) / 4);
-    if (shared > least && c->parts->part[i].patch != HR2DI_NOBODY &&
+    const double min = fmin(HR2DI_PART_ROUNDING, fmin(p.to - p.from, q.to - q.from) / 4);
+    if (shared > min && c->parts->part[i].patch != HR2DI_NOBODY &&
         c->parts->part[j].patch != HR2DI_NOBODY)
       status = add_contact(c, i, j, shared * stretch);
     right.last -= p.to <= q.to;

@@ -5,7 +5,7 @@
 
 #include <hr2d/scene.h>
 
-#include "sight/walk.h"
+#include "beams/walk.h"
 
 #define HR2DI_NOBODY UINT32_MAX
 

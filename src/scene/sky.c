@@ -15,18 +15,18 @@ double hr2di_sky_beyond(const hr2d_scene *scene, size_t piece, size_t band) {
   return value_of(&scene->sky, piece, band) - hr2d_scene_background(scene, band);
 }
 
-double hr2di_sky_most(const hr2d_scene *scene, size_t band) {
-  double most = hr2d_scene_background(scene, band);
+double hr2di_sky_max(const hr2d_scene *scene, size_t band) {
+  double max = hr2d_scene_background(scene, band);
   for (size_t k = 0; k < scene->sky.pieces; k++)
-    most = fmax(most, value_of(&scene->sky, k, band));
-  return most;
+    max = fmax(max, value_of(&scene->sky, k, band));
+  return max;
 }
 
-double hr2di_sky_least(const hr2d_scene *scene, size_t band) {
-  double least = hr2d_scene_background(scene, band);
+double hr2di_sky_min(const hr2d_scene *scene, size_t band) {
+  double min = hr2d_scene_background(scene, band);
   for (size_t k = 0; k < scene->sky.pieces; k++)
-    least = fmin(least, value_of(&scene->sky, k, band));
-  return least;
+    min = fmin(min, value_of(&scene->sky, k, band));
+  return min;
 }
 
 static int is_piece(hr2d_sky_piece p) {
@@ -128,12 +128,12 @@ size_t hr2d_scene_sky_pieces(const hr2d_scene *scene) {
   return scene->sky.pieces;
 }
 
-double hr2di_sky_jump(const hr2d_scene *scene, double bearing, const double *most) {
+double hr2di_sky_jump(const hr2d_scene *scene, double bearing, const double *max) {
   const size_t before = piece_at(&scene->sky, bearing - 2 * ROUND),
                after = piece_at(&scene->sky, bearing + 2 * ROUND);
   double jump = 0;
   for (size_t b = 0; b < scene->bands && before != after; b++)
-    if (most[b] > 0)
-      jump = fmax(jump, fabs(seen_at(scene, after, b) - seen_at(scene, before, b)) / most[b]);
+    if (max[b] > 0)
+      jump = fmax(jump, fabs(seen_at(scene, after, b) - seen_at(scene, before, b)) / max[b]);
   return jump;
 }

@@ -27,12 +27,12 @@ void hr2di_sky_clear(hr2di_sky *sky, const hr2d_allocator *alloc);
 double hr2di_sky_beyond(const hr2d_scene *scene, size_t piece, size_t band);
 
 /* The largest radiosity of the sky in a band, with the background, and the least. */
-double hr2di_sky_most(const hr2d_scene *scene, size_t band);
-double hr2di_sky_least(const hr2d_scene *scene, size_t band);
+double hr2di_sky_max(const hr2d_scene *scene, size_t band);
+double hr2di_sky_min(const hr2d_scene *scene, size_t band);
 
 /* The largest jump of the sky at a bearing over all bands, as a part of the largest radiosity
-   of each, `most`. */
-double hr2di_sky_jump(const hr2d_scene *scene, double bearing, const double *most);
+   of each, `max`. */
+double hr2di_sky_jump(const hr2d_scene *scene, double bearing, const double *max);
 
 /* Whether a piece has the light of a bearing. */
 int hr2di_sky_has(const hr2d_scene *scene, size_t piece, double bearing);

@@ -28,7 +28,7 @@ enum { MOST_PARTS = 16, MOST_KINKS = 16 };
 typedef struct finder {
   hr2di_sunlight *light;
   const hr2d_scene *scene;
-  hr2d_point way;
+  hr2d_point direction;
 } finder;
 
 static hr2d_status take(void *ctx, uint32_t patch, double from, double to) {
@@ -51,7 +51,7 @@ static int by_place(const void *left, const void *right) {
 /* The longest part of a patch that is a rounding. */
 static double rounding_on(const finder *f, uint32_t patch) {
   const hr2di_patch *p = &f->scene->patch[patch];
-  const double across = p->length * hr2di_sun_cosine(f->way, p->scaled);
+  const double across = p->length * hr2di_sun_cosine(f->direction, p->scaled);
   return fmin(ALIKE, 4 * HR2DI_TOUCH / across);
 }
 
@@ -135,12 +135,12 @@ static hr2d_status find_borders(hr2di_sunlight *l, const hr2d_scene *scene,
 }
 
 /* The light of a sun at the edge would have its borders where the edge comes into sight. */
-static hr2d_status look_from_edge(finder *f, hr2di_sun_beams *beams, double bearing) {
+static hr2d_status view_from_edge(finder *f, hr2di_sun_beams *beams, double bearing) {
   hr2di_sunlight *l = f->light;
   const size_t first = l->parts;
   const hr2d_point e = hr2di_sky_direction(bearing);
-  f->way = (hr2d_point){-e.x, -e.y};
-  hr2d_status status = hr2di_sun_beams_walk(beams, f->way);
+  f->direction = (hr2d_point){-e.x, -e.y};
+  hr2d_status status = hr2di_sun_beams_walk(beams, f->direction);
   if (!status) status = settle(f, first, beams->watch);
   if (!status)
     status = add_borders((border_list){&l->kink, &l->kinks, &l->kink_room}, l, first, f->scene,
@@ -162,17 +162,17 @@ static int by_jump(const void *left, const void *right) {
 
 /* The edges at which the sky jumps, those with the largest jumps first. */
 static hr2d_status list_edges(const hr2d_scene *scene, sky_edge *edge, size_t *count,
-                              double *most, hr2di_watch *watch) {
+                              double *max, hr2di_watch *watch) {
   const hr2di_sky *sky = &scene->sky;
   hr2d_status status = HR2D_OK;
   for (size_t b = 0; b < scene->bands && !status; b++) {
-    most[b] = hr2di_sky_most(scene, b);
+    max[b] = hr2di_sky_max(scene, b);
     status = hr2di_watch_work(watch, 1 + sky->pieces / 16);
   }
   for (size_t k = 0; k < 2 * sky->pieces && !status; k++) {
     sky_edge *e = &edge[*count];
     e->bearing = k % 2 ? sky->piece[k / 2].to : sky->piece[k / 2].from;
-    e->jump = hr2di_sky_jump(scene, e->bearing, most);
+    e->jump = hr2di_sky_jump(scene, e->bearing, max);
     *count += e->jump > 0;
     status = hr2di_watch_work(watch, 2 + (sky->pieces + scene->bands) / 8);
   }
@@ -180,14 +180,14 @@ static hr2d_status list_edges(const hr2d_scene *scene, sky_edge *edge, size_t *c
 }
 
 /* Of more edges than elements may end at, those with the smallest jumps are left out. */
-static hr2d_status look_from_edges(finder *f, hr2di_sun_beams *beams, const sky_edge *edge,
+static hr2d_status view_from_edges(finder *f, hr2di_sun_beams *beams, const sky_edge *edge,
                                    size_t count) {
   hr2di_sunlight *l = f->light;
   const border_list to = {&l->kink, &l->kinks, &l->kink_room};
   hr2d_status status = HR2D_OK;
   for (size_t k = 0; k < count && !status; k++) {
     const size_t before = l->kinks;
-    status = look_from_edge(f, beams, edge[k].bearing);
+    status = view_from_edge(f, beams, edge[k].bearing);
     if (!status && l->kinks / MOST_KINKS <= f->scene->patches) continue;
     l->kinks = before;
     break;
@@ -201,12 +201,12 @@ static hr2d_status find_kinks(finder *f, hr2di_sun_beams *beams) {
   size_t count = 0;
   if (!edges) return HR2D_OK;
   sky_edge *edge = hr2di_alloc(&scene->alloc, edges, sizeof *edge);
-  double *most = hr2di_alloc(&scene->alloc, scene->bands, sizeof *most);
-  hr2d_status status = edge && most ? HR2D_OK : HR2D_ENOMEM;
-  if (!status) status = list_edges(scene, edge, &count, most, beams->watch);
-  if (!status) status = look_from_edges(f, beams, edge, count);
+  double *max = hr2di_alloc(&scene->alloc, scene->bands, sizeof *max);
+  hr2d_status status = edge && max ? HR2D_OK : HR2D_ENOMEM;
+  if (!status) status = list_edges(scene, edge, &count, max, beams->watch);
+  if (!status) status = view_from_edges(f, beams, edge, count);
   hr2di_alloc_free(&scene->alloc, edge);
-  hr2di_alloc_free(&scene->alloc, most);
+  hr2di_alloc_free(&scene->alloc, max);
   return status;
 }
 
@@ -222,7 +222,7 @@ hr2d_status hr2di_sunlight_init(hr2di_sunlight *light, const hr2d_scene *scene,
   light->of_sun[0] = 0;
   for (size_t k = 0; k < light->suns && !status; k++) {
     const hr2d_sun *sun = &scene->sun[k];
-    f.way = sun->direction;
+    f.direction = sun->direction;
     if (sun->irradiance > 0) status = hr2di_sun_beams_walk(&beams, sun->direction);
     if (!status) status = settle(&f, light->of_sun[k], watch);
     light->of_sun[k + 1] = light->parts;

@@ -97,14 +97,14 @@ double hr2di_symmetry_check(const hr2di_symmetry *s, size_t first, size_t second
   return (check == HR2DI_CHECK_ALL ? g->weight - 1 : g->check[check]) / g->weight;
 }
 
-double hr2di_symmetry_most(const hr2di_symmetry *s) {
-  double most = 1;
+double hr2di_symmetry_max(const hr2di_symmetry *s) {
+  double upper = 1;
   for (size_t k = 0; s->motion && k < s->motions; k++) {
     const hr2di_motion *g = &s->motion[k];
-    most = fmax(most, fabs(g->weight));
-    for (int c = 0; c < HR2DI_TAIL_CHECKS; c++) most = fmax(most, fabs(g->check[c]));
+    upper = fmax(upper, fabs(g->weight));
+    for (int c = 0; c < HR2DI_TAIL_CHECKS; c++) upper = fmax(upper, fabs(g->check[c]));
   }
-  return most;
+  return upper;
 }
 
 /* Directions whose sine or cosine is no more are parallel or perpendicular. */
@@ -207,7 +207,7 @@ static hr2d_status take_mirror(hr2d_scene *scene, size_t number) {
 typedef struct sides {
   hr2d_point at, along;
   double far[2];
-  size_t most[2];
+  size_t max[2];
 } sides;
 
 static sides sides_of(const hr2d_scene *scene, hr2d_segment line, double touch) {
@@ -219,7 +219,7 @@ static sides sides_of(const hr2d_scene *scene, hr2d_segment line, double touch) 
     const double off[2] = {left_of(s.at, s.along, at.a), left_of(s.at, s.along, at.b)};
     for (int m = 0; m < 4; m++) {
       const double far = m % 2 ? -off[m / 2] : off[m / 2];
-      if (far > s.far[m % 2]) s.most[m % 2] = k;
+      if (far > s.far[m % 2]) s.max[m % 2] = k;
       s.far[m % 2] = fmax(s.far[m % 2], far);
     }
   }
@@ -227,18 +227,18 @@ static sides sides_of(const hr2d_scene *scene, hr2d_segment line, double touch) 
 }
 
 static hr2d_status fail_sides(hr2d_scene *scene, const sides *s, size_t number) {
-  if (s->most[0] == s->most[1])
+  if (s->max[0] == s->max[1])
     return hr2di_message_fail(&scene->message, HR2D_ESCENE,
                               "%s is on both sides of mirror %zu, %.3g on one: everything must "
                               "be on one side of a mirror",
-                              hr2di_patch_label(scene, s->most[0]).text, number,
+                              hr2di_patch_label(scene, s->max[0]).text, number,
                               fmin(s->far[0], s->far[1]));
   return hr2di_message_fail(
       &scene->message, HR2D_ESCENE,
       "mirror %zu has %s on its left and %s on its right: everything must be on one side of a "
       "mirror, because what is behind it is the image",
-      number, hr2di_patch_label(scene, s->most[0]).text,
-      hr2di_patch_label(scene, s->most[1]).text);
+      number, hr2di_patch_label(scene, s->max[0]).text,
+      hr2di_patch_label(scene, s->max[1]).text);
 }
 
 /* Patches on both sides of a mirror are refused, and those on it that look away. */

@@ -133,7 +133,7 @@ double hr2di_symmetry_check(const hr2di_symmetry *s, size_t first, size_t second
 
 /* The largest weight, or what a check leaves of it, up to its sign; 1 without images.  Exchange
    areas of an element, with their weights, add up to this many times its length at most. */
-double hr2di_symmetry_most(const hr2di_symmetry *s);
+double hr2di_symmetry_max(const hr2di_symmetry *s);
 
 /* How many periods away a patch is whose image stands for others; 0 if it is none. */
 static inline unsigned hr2di_symmetry_term(const hr2di_symmetry *s, size_t patch) {
@@ -208,7 +208,7 @@ hr2d_status hr2di_scene_add_ends(struct hr2d_scene *scene, hr2di_watch *watch);
 
 /* The least K with which sunlight on the patches comes past none of the ends, and the most that
    are tried; 0 without a period.  Suns for which no K is enough are counted in `low_suns`. */
-void hr2di_symmetry_copies(struct hr2d_scene *scene, unsigned *least, unsigned *most);
+void hr2di_symmetry_copies(struct hr2d_scene *scene, unsigned *min, unsigned *max);
 
 /* Whether no K is enough for a sun; also when images are made. */
 int hr2di_symmetry_is_low(const struct hr2d_scene *scene, size_t sun);

@@ -62,8 +62,8 @@ static void make_pieces(hr2di_wall_pieces *p, const hr2di_walls *walls, const cu
     p->of_wall[w] = (uint32_t)p->pieces;
     for (; next < count && cuts[next].wall == w; next++) {
       const hr2d_point at = cuts[next].at;
-      const double least = fmin(NEAR, hypot(wall.b.x - wall.a.x, wall.b.y - wall.a.y) / 8);
-      if (is_near(at, rest.a, least) || is_near(at, wall.b, least)) continue;
+      const double min = fmin(NEAR, hypot(wall.b.x - wall.a.x, wall.b.y - wall.a.y) / 8);
+      if (is_near(at, rest.a, min) || is_near(at, wall.b, min)) continue;
       p->piece[p->pieces++] = (hr2d_segment){rest.a, at};
       rest.a = at;
     }

@@ -48,10 +48,10 @@ hr2d_status hr2di_with_images_init(hr2di_with_plane *copy, const hr2d_scene *sce
   const hr2di_symmetry *s = &scene->symmetry;
   if (!s->motion || !s->by.periodic || hr2di_symmetry_cuts(s))
     return hr2di_with_plane_init(copy, scene, alloc, watch);
-  unsigned least = 0, most = 0;
+  unsigned min = 0, max = 0;
   *copy = (hr2di_with_plane){.scene = *scene, .own = 1, .repeated = 1};
   forget(&copy->scene, alloc);
   hr2d_status status = add_cell(&copy->scene, scene, watch);
-  if (!status) hr2di_symmetry_copies(&copy->scene, &least, &most);
-  return status ? status : unfold(&copy->scene, most, watch);
+  if (!status) hr2di_symmetry_copies(&copy->scene, &min, &max);
+  return status ? status : unfold(&copy->scene, max, watch);
 }

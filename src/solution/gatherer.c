@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A point of a patch sees parts of other patches, its glimpses.  On the part of a leaf in a
-   glimpse B_h is a polynomial; panels shrink towards the point, as those of near blocks do. The
-   form factor of a glimpse is known to all digits.  Its share that no panel resolves, by
-   rounding or since the point touches the patch, gets the B_h of the nearest point of the
-   glimpse.
+/* A point of a patch sees parts of other patches, its visible intervals.  On the part of a leaf
+   in a visible interval B_h is a polynomial; panels shrink towards the point, as those of near
+   blocks do. The form factor of a visible interval is known to all digits.  Its share that no
+   panel resolves, by rounding or since the point touches the patch, gets the B_h of the nearest
+   point of the visible interval.
 
    Coordinates of points and of leaves are rounded.  Where B changes within a distance that is
    no more than many roundings, as beside the end of one of two plates that nearly touch, that
@@ -19,7 +19,7 @@
 #include "geometry/vector.h"
 #include "hierarchy/hierarchy-impl.h"
 #include "solution/panels.h"
-#include "visibility/view-tail.h"
+#include "visibility/periodic-tail.h"
 
 /* A rule of n points is accurate to ρ^−(2n − order), on a panel that is just far enough to
    3.19^−(2n − order).  At the largest order HR2DI_GATHER_POINTS make 3.19^−32 of that; at lower
@@ -44,12 +44,12 @@ static const hr2di_rule *rule_for(hr2di_gatherer *g, double ellipse) {
 }
 
 /* A segment: the vector from x to its start, and its own. */
-typedef struct stretch {
+typedef struct chord {
   hr2d_point from, along;
-} stretch;
+} chord;
 
 /* At order 1 B is constant on a leaf: its part sends B times the form factor of a segment. */
-static void add_constant(hr2di_gatherer *g, const stretch *leaf, const double *coefficient,
+static void add_constant(hr2di_gatherer *g, const chord *leaf, const double *coefficient,
                          hr2di_span part) {
   const double factor =
       hr2di_point_view_factor(g->normal, hr2di_block_along(leaf->from, leaf->along, part.from),
@@ -59,7 +59,7 @@ static void add_constant(hr2di_gatherer *g, const stretch *leaf, const double *c
 }
 
 /* Sums of a panel come first, so that few roundings add up. */
-static void add_panel(hr2di_gatherer *g, const stretch *leaf, hr2di_span panel,
+static void add_panel(hr2di_gatherer *g, const chord *leaf, hr2di_span panel,
                       const hr2di_rule *rule, const double *coefficient) {
   const hr2d_point from = leaf->from, along = leaf->along;
   const double size = panel.to - panel.from;
@@ -88,7 +88,7 @@ static void add_panel(hr2di_gatherer *g, const stretch *leaf, hr2di_span panel,
 }
 
 /* Adds the light that a part of a leaf sends. */
-static void add_leaf(hr2di_gatherer *g, const stretch *leaf, const double *coefficient,
+static void add_leaf(hr2di_gatherer *g, const chord *leaf, const double *coefficient,
                      hr2di_span part) {
   hr2di_panels panels = {.count = 1};
   if (!(part.to > part.from)) return;
@@ -114,28 +114,30 @@ typedef struct piece {
 enum { STACK = 128 };
 
 /* The part of a patch that a leaf covers, as the point sees it. */
-static stretch stretch_of(const hr2di_gatherer *g, hr2d_segment patch, const piece *p) {
+static chord chord_of(const hr2di_gatherer *g, hr2d_segment patch, const piece *p) {
   const hr2di_vector whole = hr2di_vector_difference(patch.b, patch.a);
-  const hr2di_vector apart = hr2di_vector_difference(patch.a, g->base);
-  const hr2di_vector start = hr2di_vector_minus(&apart, &g->way);
+  const hr2di_vector difference = hr2di_vector_difference(patch.a, g->base);
+  const hr2di_vector start = hr2di_vector_minus(&difference, &g->offset);
   const hr2di_vector offset = hr2di_vector_times(&whole, p->from);
   const hr2di_vector from = hr2di_vector_plus(&start, &offset);
   const double size = p->to - p->from;
-  return (stretch){{from.x, from.y}, {whole.x * size, whole.y * size}};
+  return (chord){{from.x, from.y}, {whole.x * size, whole.y * size}};
 }
 
 /* Fractions of a patch have roundings of some 1e-15.  Beside a foot of another wall, where B
-   jumps from leaf to leaf, the end of a glimpse may so reach the leaf behind the foot. */
+   jumps from leaf to leaf, the end of a visible interval may so reach the leaf behind the foot.
+ */
 #define ROUNDED 0x1p-49
 
-/* A glimpse without what may be rounding at its ends: leaves that are outside are not seen. */
-static hr2di_span inside_of(const hr2di_glimpse *seen) {
+/* A visible interval without what may be rounding at its ends: leaves that are outside are not
+ * seen. */
+static hr2di_span inside_of(const hr2di_visible_interval *seen) {
   const double end = fmin(ROUNDED, 0.25 * (seen->to - seen->from));
   return (hr2di_span){seen->from + end, seen->to - end};
 }
 
-/* Adds the light of the leaves of a glimpse. */
-static void add_leaves(hr2di_gatherer *g, const hr2di_glimpse *seen) {
+/* Adds the light of the leaves of a visible interval. */
+static void add_leaves(hr2di_gatherer *g, const hr2di_visible_interval *seen) {
   const hr2d_solution *s = g->solution;
   const hr2d_element *element = s->hierarchy->element;
   const hr2d_segment patch = s->hierarchy->scene->patch[seen->patch].scaled;
@@ -157,7 +159,7 @@ static void add_leaves(hr2di_gatherer *g, const hr2di_glimpse *seen) {
     }
     const hr2di_span part = {seen->from > p.from ? (seen->from - p.from) / size : 0,
                              seen->to < p.to ? (seen->to - p.from) / size : 1};
-    const stretch leaf = stretch_of(g, patch, &p);
+    const chord leaf = chord_of(g, patch, &p);
     add_leaf(g, &leaf, s->value + p.element * s->order * s->bands, part);
   }
 }
@@ -173,9 +175,9 @@ double hr2di_gatherer_nearest(const hr2di_gatherer *g, size_t patch, double from
   return at;
 }
 
-/* Adds a glimpse: the light that panels resolve, and the rest from its nearest point.  So
-   roundings of the panels count only where B_h differs from that point's. */
-static void add_one(hr2di_gatherer *g, const hr2di_glimpse *seen) {
+/* Adds a visible interval: the light that panels resolve, and the rest from its nearest point.
+   So roundings of the panels count only where B_h differs from that point's. */
+static void add_one(hr2di_gatherer *g, const hr2di_visible_interval *seen) {
   g->factor = 0;
   add_leaves(g, seen);
   const double rest = seen->sine - g->factor;
@@ -185,24 +187,24 @@ static void add_one(hr2di_gatherer *g, const hr2di_glimpse *seen) {
     g->value[b] += rest * hr2d_solution_at(g->solution, seen->patch, at, b);
 }
 
-/* Sets g->one to the light of a glimpse. */
-static void set_one(hr2di_gatherer *g, const hr2di_glimpse *seen) {
+/* Sets g->current to the light of a visible interval. */
+static void set_one(hr2di_gatherer *g, const hr2di_visible_interval *seen) {
   double *value = g->value;
-  g->value = g->one;
-  for (size_t b = 0; b < g->solution->bands; b++) g->one[b] = 0;
+  g->value = g->current;
+  for (size_t b = 0; b < g->solution->bands; b++) g->current[b] = 0;
   add_one(g, seen);
   g->value = value;
 }
 
 /* Images of a period may stand for those that are cut off as well. */
-static void add_glimpse(hr2di_gatherer *g, const hr2di_glimpse *seen) {
-  const double weight = hr2di_view_tail_weight(g->solution->hierarchy->scene, seen->patch);
+static void add_interval(hr2di_gatherer *g, const hr2di_visible_interval *seen) {
+  const double weight = hr2di_periodic_tail_weight(g->solution->hierarchy->scene, seen->patch);
   if (weight == 1 || !g->past) {
     add_one(g, seen);
     return;
   }
   set_one(g, seen);
-  for (size_t b = 0; b < g->solution->bands; b++) g->value[b] += weight * g->one[b];
+  for (size_t b = 0; b < g->solution->bands; b++) g->value[b] += weight * g->current[b];
 }
 
 /* It is measured from the nearer end, so that it is on the patch at both. */
@@ -210,15 +212,15 @@ void hr2di_gatherer_set_point(hr2di_gatherer *g, const hr2di_patch *p, double t)
   const hr2d_segment s = p->scaled;
   const hr2d_point along = hr2di_point_minus(s.b, s.a);
   const hr2di_vector whole = hr2di_vector_difference(s.b, s.a);
-  const double way = t <= 0.5 ? t : t - 1;
+  const double offset = t <= 0.5 ? t : t - 1;
   g->base = t <= 0.5 ? s.a : s.b;
-  g->way = hr2di_vector_times(&whole, way);
-  g->x = hr2di_block_along(g->base, along, way);
+  g->offset = hr2di_vector_times(&whole, offset);
+  g->x = hr2di_block_along(g->base, along, offset);
   g->normal = (hr2d_point){-along.y / p->length, along.x / p->length};
 }
 
-/* Whether a glimpse is that of a patch at the edge of a wedge. */
-static int is_at_edge(const hr2di_glimpse *seen, const hr2di_edge *q) {
+/* Whether a visible interval is that of a patch at the edge of a wedge. */
+static int is_at_edge(const hr2di_visible_interval *seen, const hr2di_edge *q) {
   return q && seen->patch == q->patch && seen->from <= q->at + q->step &&
          seen->to >= q->at - q->step;
 }
@@ -252,24 +254,24 @@ hr2d_status hr2di_gatherer_look_past(hr2di_gatherer *g, size_t patch, double t, 
   const hr2d_scene *scene = g->solution->hierarchy->scene;
   const size_t bands = g->solution->bands;
   hr2di_view_from seen;
-  hr2di_view_tail tail;
+  hr2di_periodic_tail tail;
   const hr2d_status status = hr2di_view_at(g->viewer, patch, t, &seen);
   for (size_t k = 0; k < HR2DI_GATHER_PAST * bands; k++) past[k] = 0;
   *ends = 0;
   if (status) return status;
-  hr2di_view_tail_of(scene, patch, t, &seen, &tail);
+  hr2di_periodic_tail_of(scene, patch, t, &seen, &tail);
   *ends = tail.ends;
   g->past = tail.ends > 0;
   hr2di_gatherer_set_point(g, &scene->patch[patch], t);
   for (size_t m = 0; m < seen.count && g->past; m++) {
-    const double *check = hr2di_view_tail_checks(scene, seen.glimpse[m].patch);
-    const double more = hr2di_view_tail_weight(scene, seen.glimpse[m].patch) - 1;
+    const double *check = hr2di_periodic_tail_checks(scene, seen.interval[m].patch);
+    const double more = hr2di_periodic_tail_weight(scene, seen.interval[m].patch) - 1;
     if (!check) continue;
-    set_one(g, &seen.glimpse[m]);
+    set_one(g, &seen.interval[m]);
     for (size_t b = 0; b < bands; b++) {
       for (int c = 0; c < HR2DI_TAIL_CHECKS; c++)
-        past[(size_t)c * bands + b] += check[c] * g->one[b];
-      past[HR2DI_TAIL_CHECKS * bands + b] += more * g->one[b];
+        past[(size_t)c * bands + b] += check[c] * g->current[b];
+      past[HR2DI_TAIL_CHECKS * bands + b] += more * g->current[b];
     }
   }
   for (int c = 0; c < HR2DI_TAIL_CHECKS; c++)
@@ -302,8 +304,8 @@ hr2d_status hr2di_gatherer_look(hr2di_gatherer *g, size_t patch, double t,
   hr2di_view_from seen;
   const hr2d_status status = hr2di_view_at(g->viewer, patch, t, &seen);
   if (status) return status;
-  hr2di_view_tail tail;
-  hr2di_view_tail_of(scene, patch, t, &seen, &tail);
+  hr2di_periodic_tail tail;
+  hr2di_periodic_tail_of(scene, patch, t, &seen, &tail);
   g->past = tail.ends > 0;
   hr2di_gatherer_set_point(g, &scene->patch[patch], t);
   g->value = irradiance;
@@ -316,9 +318,9 @@ hr2d_status hr2di_gatherer_look(hr2di_gatherer *g, size_t patch, double t,
   add_sky(g, patch, &seen);
   add_far_sky(g, tail.sky, tail.bearing, g->value);
   for (size_t k = 0; k < seen.count; k++) {
-    const int at_edge = is_at_edge(&seen.glimpse[k], without);
-    *(at_edge ? wedge : others) += seen.glimpse[k].sine;
-    if (!at_edge) add_glimpse(g, &seen.glimpse[k]);
+    const int at_edge = is_at_edge(&seen.interval[k], without);
+    *(at_edge ? wedge : others) += seen.interval[k].sine;
+    if (!at_edge) add_interval(g, &seen.interval[k]);
   }
   /* Light is never negative; polynomials may be beside a shadow. */
   for (size_t b = 0; b < g->solution->bands; b++) g->value[b] = fmax(g->value[b], 0);
@@ -331,13 +333,14 @@ hr2d_status hr2di_gatherer_init(hr2di_gatherer *g, const hr2d_solution *solution
   g->edge = hr2di_alloc(&solution->alloc, solution->bands, 3 * sizeof *g->edge);
   if (!g->edge) return HR2D_ENOMEM;
   g->far = g->edge + solution->bands;
-  g->one = g->far + solution->bands;
+  g->current = g->far + solution->bands;
   hr2di_basis_init(&g->basis, solution->order);
   set_rules(g);
-  return hr2di_viewer_create(solution->hierarchy->scene, &solution->alloc, watch, &g->viewer);
+  return hr2di_point_viewer_create(solution->hierarchy->scene, &solution->alloc, watch,
+                                   &g->viewer);
 }
 
 void hr2di_gatherer_clear(hr2di_gatherer *g) {
-  hr2di_viewer_destroy(g->viewer);
+  hr2di_point_viewer_destroy(g->viewer);
   hr2di_alloc_free(&g->solution->alloc, g->edge);
 }

@@ -13,20 +13,20 @@ enum { HR2DI_GATHER_POINTS = 32 /* of the longest rule */ };
 
 typedef struct hr2di_gatherer {
   const hr2d_solution *solution;
-  hr2di_viewer *viewer;
+  hr2di_point_viewer *viewer;
   hr2di_watch *watch;
   hr2di_basis basis;
   hr2di_rule rule[HR2DI_GATHER_POINTS]; /* of 1, 2, … points; none yet where there are 0 */
   double enough[HR2DI_GATHER_POINTS];   /* the least ellipse for which they are enough */
   hr2d_point x, normal;
-  hr2d_point base;  /* the end of its patch that is nearer to x */
-  hr2di_vector way; /* from there to x */
-  double *value;    /* per band: H */
-  double factor;    /* the form factor that panels have found of the glimpse under way */
-  double *edge;     /* per band: the irradiance of the other patch of a wedge */
-  double *far;      /* per band: the irradiance at the farther one of two points */
-  double *one;      /* per band: that from one glimpse */
-  int past;         /* the point sees what is past the ends of a period */
+  hr2d_point base;     /* the end of its patch that is nearer to x */
+  hr2di_vector offset; /* from there to x */
+  double *value;       /* per band: H */
+  double factor; /* the form factor that panels have found of the visible interval under way */
+  double *edge;  /* per band: the irradiance of the other patch of a wedge */
+  double *far;   /* per band: the irradiance at the farther one of two points */
+  double *current; /* per band: that from one visible interval */
+  int past;        /* the point sees what is past the ends of a period */
 } hr2di_gatherer;
 
 /* A patch that touches the point, as one side of a wedge. */

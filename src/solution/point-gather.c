@@ -20,7 +20,7 @@ hr2d_status hr2di_solution_gather_irradiance(const hr2d_solution *solution, size
   hr2di_gatherer g;
   hr2d_status status = hr2di_gatherer_init(&g, solution, watch);
   for (size_t k = 0; k < count && !status; k++) {
-    if (watch) watch->told.fraction = (double)k / (double)count;
+    if (watch) watch->report.fraction = (double)k / (double)count;
     status = gather_at(&g, patch, t[k], value + k * solution->bands);
   }
   hr2di_gatherer_clear(&g);

@@ -14,8 +14,9 @@ struct hr2d_solution {
   const hr2d_hierarchy *hierarchy;
   hr2d_hierarchy *own_hierarchy; /* made by hr2d_solve_to(), destroyed with the solution */
   hr2d_linkset *own_links;       /* likewise */
-  hr2d_scene *own_scene;         /* a settled scene, destroyed with the solution; mostly NULL */
-  size_t elements;               /* of the hierarchy when this was solved */
+  hr2d_scene
+      *own_scene; /* a scene of frozen temperatures, destroyed with the solution; mostly NULL */
+  size_t elements; /* of the hierarchy when this was solved */
   size_t order, bands;
   double *value;         /* elements × order × bands, Legendre coefficients of B */
   double *irradiance;    /* likewise of H */
@@ -26,7 +27,8 @@ struct hr2d_solution {
   double residual;
 };
 
-/* The scene whose E and ρ the solution has: that of its hierarchy, or a settled one of it. */
+/* The scene whose E and ρ the solution has: that of its hierarchy, or one of frozen
+ * temperatures of it. */
 static inline const hr2d_scene *hr2di_solution_scene(const hr2d_solution *solution) {
   return solution->own_scene ? solution->own_scene : solution->hierarchy->scene;
 }

@@ -5,7 +5,7 @@
 #include "base/alloc.h"
 #include "base/legendre.h"
 #include "hierarchy/hierarchy-impl.h"
-#include "scene/settled.h"
+#include "scene/frozen-temperatures.h"
 #include "solution/solution-impl.h"
 
 void hr2d_solution_destroy(hr2d_solution *solution) {
@@ -17,7 +17,7 @@ void hr2d_solution_destroy(hr2d_solution *solution) {
   hr2di_alloc_free(&alloc, solution->power_cut_off);
   hr2d_linkset_destroy(solution->own_links);
   hr2d_hierarchy_destroy(solution->own_hierarchy);
-  hr2di_settled_destroy(solution->own_scene);
+  hr2di_frozen_destroy(solution->own_scene);
   hr2di_alloc_free(&alloc, solution);
 }
 

@@ -39,7 +39,7 @@ static double beside(const hr2di_gatherer *g, const hr2di_edge *e, double steps)
 /* The form factor of an edge is k = ½(1 + cos α) = ¼|u + w|², and that of everything else
    1 − k = ¼|u − w|².  A view from beside the edge has neither exactly: irradiances from
    everything else are scaled by the right one. */
-static hr2d_status look_beside(hr2di_gatherer *g, const hr2di_edge *p, const hr2di_edge *q,
+static hr2d_status view_beside(hr2di_gatherer *g, const hr2di_edge *p, const hr2di_edge *q,
                                double steps, double right, double *irradiance, int *sees) {
   double wedge, others;
   const hr2d_status status =
@@ -52,10 +52,10 @@ static hr2d_status look_beside(hr2di_gatherer *g, const hr2di_edge *p, const hr2
 
 /* The irradiance from everything but the other patch at the edge of a wedge: 2H(x) − H(2x),
    which differs from the limit by O(x²). */
-static hr2d_status look_at_edge(hr2di_gatherer *g, const hr2di_edge *p, const hr2di_edge *q,
+static hr2d_status examine_edge(hr2di_gatherer *g, const hr2di_edge *p, const hr2di_edge *q,
                                 double right, double *irradiance, int *sees) {
-  hr2d_status status = look_beside(g, p, q, 2, right, g->far, sees);
-  if (!status && *sees) status = look_beside(g, p, q, 1, right, irradiance, sees);
+  hr2d_status status = view_beside(g, p, q, 2, right, g->far, sees);
+  if (!status && *sees) status = view_beside(g, p, q, 1, right, irradiance, sees);
   for (size_t b = 0; b < g->solution->bands && !status && *sees; b++)
     irradiance[b] = fmax(2 * irradiance[b] - g->far[b], 0);
   return status;
@@ -67,11 +67,11 @@ static hr2d_status close_wedge(hr2di_gatherer *g, const hr2di_edge *p, const hr2
                                double *irradiance, int *closed) {
   const hr2d_scene *scene = hr2di_solution_scene(g->solution);
   const hr2d_point u = direction_of(g, p), w = direction_of(g, q);
-  const hr2d_point sum = {u.x + w.x, u.y + w.y}, apart = hr2di_point_minus(u, w);
+  const hr2d_point sum = {u.x + w.x, u.y + w.y}, difference = hr2di_point_minus(u, w);
   const double k = 0.25 * hr2di_point_dot(sum, sum),
-               rest = 0.25 * hr2di_point_dot(apart, apart);
-  hr2d_status status = look_at_edge(g, p, q, rest, irradiance, closed);
-  if (!status && *closed) status = look_at_edge(g, q, p, rest, g->edge, closed);
+               rest = 0.25 * hr2di_point_dot(difference, difference);
+  hr2d_status status = examine_edge(g, p, q, rest, irradiance, closed);
+  if (!status && *closed) status = examine_edge(g, q, p, rest, g->edge, closed);
   if (status || !*closed) return status;
   for (size_t b = 0; b < g->solution->bands; b++) {
     const double rho_p = hr2d_scene_reflectance(scene, p->patch, b);
@@ -104,8 +104,8 @@ static hr2d_status next_wedge(hr2di_gatherer *g, const hr2di_edge *p, size_t *k,
   if (status) return status;
   hr2di_gatherer_set_point(g, &scene->patch[p->patch], p->at);
   for (size_t m = 0; m < seen.count; m++) {
-    const size_t patch = seen.glimpse[m].patch;
-    if (patch < *k || (m > 0 && patch == seen.glimpse[m - 1].patch)) continue;
+    const size_t patch = seen.interval[m].patch;
+    if (patch < *k || (m > 0 && patch == seen.interval[m - 1].patch)) continue;
     if (!makes_wedge(g, patch, q)) continue;
     *k = patch;
     return hr2di_watch_work(g->watch, seen.count / 8);

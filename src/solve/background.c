@@ -11,9 +11,9 @@
 #include "base/team.h"
 #include "hierarchy/hierarchy-impl.h"
 #include "scene/scene-impl.h"
+#include "visibility/back-visibility.h"
+#include "visibility/periodic-tail.h"
 #include "visibility/point-view.h"
-#include "visibility/seen-backs.h"
-#include "visibility/view-tail.h"
 
 /* A form factor up to this cannot be told from rounding. */
 #define NONE 1e-14
@@ -31,25 +31,25 @@ hr2d_status hr2di_background_set(hr2di_transport *t, const hr2di_row_sums *rows)
 enum { BATCH = 16 /* the leaves of a task */ };
 
 /* The work space of a thread. */
-typedef struct looker {
-  hr2di_viewer *viewer;
+typedef struct observer {
+  hr2di_point_viewer *viewer;
   hr2di_watch own; /* but the calling thread has that of the transport */
   hr2d_status status;
-} looker;
+} observer;
 
-typedef struct lookers {
+typedef struct observers {
   hr2di_transport *t;
   const unsigned char *sees; /* per patch: whether it may see a back */
   hr2di_basis basis;
   hr2di_rule rule;
-  looker *looker;
+  observer *observer;
   size_t threads;
   atomic_int failed;
-} lookers;
+} observers;
 
 /* Subtracts the backs that a leaf sees.  The leaf begins at fraction `from` of its patch and
    has `size` of its length. */
-static hr2d_status take_backs(const lookers *all, hr2di_viewer *viewer, size_t leaf,
+static hr2d_status take_backs(const observers *all, hr2di_point_viewer *viewer, size_t leaf,
                               double from, double size) {
   hr2di_transport *t = all->t;
   const hr2d_scene *scene = t->hierarchy->scene;
@@ -60,8 +60,8 @@ static hr2d_status take_backs(const lookers *all, hr2di_viewer *viewer, size_t l
     const double at = from + size * (0.5 + 0.5 * all->rule.at[q]);
     const hr2d_status status = hr2di_view_at(viewer, patch, at, &seen);
     if (status) return status;
-    hr2di_view_tail tail;
-    hr2di_view_tail_of(scene, patch, at, &seen, &tail);
+    hr2di_periodic_tail tail;
+    hr2di_periodic_tail_of(scene, patch, at, &seen, &tail);
     const double back = seen.back + tail.back;
     hr2di_basis_at(&all->basis, all->rule.at[q], phi);
     for (size_t k = 0; k < t->order; k++) sky[k] -= all->rule.weight[q] * back * phi[k];
@@ -71,8 +71,8 @@ static hr2d_status take_backs(const lookers *all, hr2di_viewer *viewer, size_t l
 
 /* Each leaf has its own coefficients, so that no bit depends on threads. */
 static void take_some_backs(void *ctx, size_t worker, size_t task) {
-  lookers *all = ctx;
-  looker *l = &all->looker[worker];
+  observers *all = ctx;
+  observer *l = &all->observer[worker];
   const hr2di_transport *t = all->t;
   const hr2d_hierarchy *h = t->hierarchy;
   for (size_t k = task * BATCH; k < t->leaves && k < (task + 1) * BATCH; k++) {
@@ -88,28 +88,28 @@ static void take_some_backs(void *ctx, size_t worker, size_t task) {
 }
 
 static hr2d_status take_all_backs(hr2di_transport *t, const unsigned char *sees) {
-  const size_t most = 1 + t->leaves / HR2DI_CHOICE_TEAM_LEAVES,
+  const size_t upper = 1 + t->leaves / HR2DI_CHOICE_TEAM_LEAVES,
                threads = hr2di_team_threads(t->threads);
-  lookers all = {.t = t, .sees = sees, .threads = threads < most ? threads : most};
+  observers all = {.t = t, .sees = sees, .threads = threads < upper ? threads : upper};
   hr2di_basis_init(&all.basis, t->order);
   hr2di_rule_init(&all.rule, t->order + 6);
-  all.looker = hr2di_alloc_zero(&t->alloc, all.threads, sizeof *all.looker);
-  if (!all.looker) return HR2D_ENOMEM;
+  all.observer = hr2di_alloc_zero(&t->alloc, all.threads, sizeof *all.observer);
+  if (!all.observer) return HR2D_ENOMEM;
   hr2d_status status = HR2D_OK;
   for (size_t k = 0; k < all.threads && !status; k++) {
-    looker *l = &all.looker[k];
+    observer *l = &all.observer[k];
     hr2di_watch_follow(&l->own, t->watch);
-    status = hr2di_viewer_create(t->hierarchy->scene, &t->alloc, k == 0 ? t->watch : &l->own,
-                                 &l->viewer);
+    status = hr2di_point_viewer_create(t->hierarchy->scene, &t->alloc,
+                                       k == 0 ? t->watch : &l->own, &l->viewer);
   }
   if (!status)
     hr2di_team_run(all.threads, (t->leaves + BATCH - 1) / BATCH, take_some_backs, &all,
                    t->watch);
   for (size_t k = 0; k < all.threads; k++) {
-    if (!status) status = all.looker[k].status;
-    hr2di_viewer_destroy(all.looker[k].viewer);
+    if (!status) status = all.observer[k].status;
+    hr2di_point_viewer_destroy(all.observer[k].viewer);
   }
-  hr2di_alloc_free(&t->alloc, all.looker);
+  hr2di_alloc_free(&t->alloc, all.observer);
   return status ? status : hr2di_watch_status(t->watch);
 }
 
@@ -118,14 +118,14 @@ static hr2d_status take_all_backs(hr2di_transport *t, const unsigned char *sees)
 static double *irradiance_of_one(hr2di_transport *t,
                                  void (*apply)(hr2di_transport *, const double *, double *)) {
   const size_t field = t->leaves * t->width;
-  double *one = hr2di_alloc_zero(&t->alloc, field, sizeof *one);
-  double *arrives = one ? hr2di_alloc(&t->alloc, field, sizeof *arrives) : NULL;
+  double *unit = hr2di_alloc_zero(&t->alloc, field, sizeof *unit);
+  double *arrives = unit ? hr2di_alloc(&t->alloc, field, sizeof *arrives) : NULL;
   if (arrives) {
     for (size_t k = 0; k < t->leaves; k++)
-      for (size_t b = 0; b < t->bands; b++) one[k * t->width + b] = 1;
-    apply(t, one, arrives);
+      for (size_t b = 0; b < t->bands; b++) unit[k * t->width + b] = 1;
+    apply(t, unit, arrives);
   }
-  hr2di_alloc_free(&t->alloc, one);
+  hr2di_alloc_free(&t->alloc, unit);
   return arrives;
 }
 
@@ -179,7 +179,7 @@ static void part_check(hr2di_transport *t, const double *radiosity, double *irra
 }
 
 /* Whether the sky shows from a point of the rule on a leaf. */
-static hr2d_status sees_sky(const hr2di_transport *t, hr2di_viewer *viewer, size_t leaf,
+static hr2d_status sees_sky(const hr2di_transport *t, hr2di_point_viewer *viewer, size_t leaf,
                             const hr2di_rule *rule, int *sees) {
   const hr2d_hierarchy *h = t->hierarchy;
   const hr2d_element *e = &h->element[t->leaf[leaf]];
@@ -200,7 +200,7 @@ static hr2d_status sees_sky(const hr2di_transport *t, hr2di_viewer *viewer, size
 /* Clears leaves whose part of the background is no more than it may be off: `off[c]` has what
    check c leaves of rows. */
 static hr2d_status clear_unseen(hr2di_transport *t, double *const off[HR2DI_TAIL_CHECKS],
-                                hr2di_viewer *viewer) {
+                                hr2di_point_viewer *viewer) {
   hr2di_rule rule;
   hr2d_status status = HR2D_OK;
   hr2di_rule_init(&rule, t->order + 6);
@@ -214,7 +214,7 @@ static hr2d_status clear_unseen(hr2di_transport *t, double *const off[HR2DI_TAIL
       status = sees_sky(t, viewer, k, &rule, &sees);
     if (!sees) memset(sky, 0, t->order * sizeof *sky);
   }
-  hr2di_ties_spread_leaves(&t->ties, t->order, 1, t->sky);
+  hr2di_image_map_spread_leaves(&t->image_map, t->order, 1, t->sky);
   return status;
 }
 
@@ -224,11 +224,12 @@ static hr2d_status clear_unseen(hr2di_transport *t, double *const off[HR2DI_TAIL
 static hr2d_status clear_unknown(hr2di_transport *t) {
   double *off[HR2DI_TAIL_CHECKS] = {irradiance_of_one(t, last_check),
                                     irradiance_of_one(t, part_check)};
-  hr2di_viewer *viewer = NULL;
+  hr2di_point_viewer *viewer = NULL;
   hr2d_status status = off[0] && off[1] ? t->failed : HR2D_ENOMEM;
-  if (!status) status = hr2di_viewer_create(t->hierarchy->scene, &t->alloc, t->watch, &viewer);
+  if (!status)
+    status = hr2di_point_viewer_create(t->hierarchy->scene, &t->alloc, t->watch, &viewer);
   if (!status) status = clear_unseen(t, off, viewer);
-  hr2di_viewer_destroy(viewer);
+  hr2di_point_viewer_destroy(viewer);
   for (int c = 0; c < HR2DI_TAIL_CHECKS; c++) hr2di_alloc_free(&t->alloc, off[c]);
   return status ? status : hr2di_watch_work(t->watch, t->leaves / 4);
 }
@@ -237,10 +238,10 @@ hr2d_status hr2di_background_set_order_p(hr2di_transport *t, unsigned char **see
   t->sky = hr2di_alloc_zero(&t->alloc, t->leaves * t->order, sizeof *t->sky);
   hr2d_status status = t->sky ? take_rows(t) : HR2D_ENOMEM;
   if (!status && !*sees)
-    status = hr2di_seen_backs(t->hierarchy->scene, &t->alloc, t->threads, sees, t->watch);
+    status = hr2di_back_visibility(t->hierarchy->scene, &t->alloc, t->threads, sees, t->watch);
   if (!status && *sees) status = take_all_backs(t, *sees);
   if (t->links->share) status = combine_rows(t, status);
-  hr2di_ties_spread_leaves(&t->ties, t->order, 1, t->sky);
+  hr2di_image_map_spread_leaves(&t->image_map, t->order, 1, t->sky);
   if (!status) clear_closed(t);
   if (!status && hr2di_symmetry_cuts(&t->hierarchy->scene->symmetry)) status = clear_unknown(t);
   return status;

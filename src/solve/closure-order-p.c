@@ -31,7 +31,7 @@ typedef struct rows {
   unsigned char *closed; /* per patch */
   hr2di_sum *defect;     /* per patch */
   uint32_t *number;      /* of each leaf among the leaves */
-  double *one;           /* leaves × width: B = 1 */
+  double *scratch;       /* leaves × width: B = 1 */
   double *row;           /* its irradiance over distant links */
   double *all;           /* its irradiance over all links */
   double *exact;         /* leaves × order: Σ F(x → j) */
@@ -46,7 +46,7 @@ typedef struct rows {
    |C| cos θ_C is the distance of the one end from the line of i: a rounding of these is one of
    F, also where F is small. */
 static double point_factor(const hr2di_pair_frame *f, double s) {
-  const hr2d_point c = hr2di_block_along(f->apart, f->along_i, -s);
+  const hr2d_point c = hr2di_block_along(f->separation, f->along_i, -s);
   const hr2d_point d = {c.x + f->along_j.x, c.y + f->along_j.y};
   const double size_c = sqrt(c.x * c.x + c.y * c.y), size_d = sqrt(d.x * d.x + d.y * d.y);
   const double cosines = f->above_i[0] / size_c + f->above_i[1] / size_d;
@@ -69,7 +69,7 @@ static void add_exact(const rows *r, uint32_t receiver, uint32_t source, double 
     const double from = (hr2di_element_start(h, leaf) - start) * (whole / size);
     const double part = h->element[leaf].length / size;
     const size_t at = r->number[leaf] * order;
-    double one[HR2D_MAX_ORDER] = {0}, *exact = r->bin ? one : r->exact + at;
+    double scratch[HR2D_MAX_ORDER] = {0}, *exact = r->bin ? scratch : r->exact + at;
     for (size_t q = 0; q < r->rule.points; q++) {
       const double s = from + part * (0.5 + 0.5 * r->rule.at[q]);
       const double factor = weight * r->rule.weight[q] * point_factor(&f, s);
@@ -115,10 +115,10 @@ static void add_links(void *ctx, size_t worker, size_t part) {
 }
 
 static void add_all_links(const rows *r) {
-  const uint64_t most = 1 + r->t->links->store.count / WORTH;
+  const uint64_t max = 1 + r->t->links->store.count / WORTH;
   parts p = {.r = r, .count = hr2di_team_threads(r->t->threads)};
   if (p.count > MOST_PARTS) p.count = MOST_PARTS;
-  if (p.count > most) p.count = (size_t)most;
+  if (p.count > max) p.count = (size_t)max;
   for (size_t k = 0; k < p.count; k++) hr2di_watch_follow(&p.own[k], r->t->watch);
   hr2di_team_run(p.count, p.count, add_links, &p, r->t->watch);
 }
@@ -127,7 +127,7 @@ static void add_all_links(const rows *r) {
 static hr2d_status add_shares(rows *r, hr2di_transport *t) {
   const size_t count = t->leaves * t->order;
   r->bin = hr2di_alloc_zero(&t->alloc, count, sizeof *r->bin);
-  r->scale = hr2di_bin_scale(2 * hr2di_symmetry_most(&t->hierarchy->scene->symmetry) *
+  r->scale = hr2di_bin_scale(2 * hr2di_symmetry_max(&t->hierarchy->scene->symmetry) *
                              sqrt((double)(2 * t->order)));
   if (r->bin) add_all_links(r);
   hr2d_status status = r->bin ? hr2di_transport_status(t) : HR2D_ENOMEM;
@@ -186,9 +186,9 @@ static void close_rows(rows *r, hr2di_transport *t, double *closure) {
     hr2di_basis_at(&r->basis, r->product.at[q], r->product_phi[q]);
   for (size_t k = 0; k < t->leaves; k++) {
     r->number[t->leaf[k]] = (uint32_t)k;
-    for (size_t b = 0; b < t->bands; b++) r->one[k * t->width + b] = 1;
+    for (size_t b = 0; b < t->bands; b++) r->scratch[k * t->width + b] = 1;
   }
-  hr2di_transport_apply_part(t, HR2DI_ALL_LINKS, r->one, r->all);
+  hr2di_transport_apply_part(t, HR2DI_ALL_LINKS, r->scratch, r->all);
   if (t->failed) return;
   const hr2di_clusters *clusters = t->roots->clusters;
   if (clusters && hr2di_clusters_links(clusters) > 0)
@@ -197,13 +197,13 @@ static void close_rows(rows *r, hr2di_transport *t, double *closure) {
     t->failed = find_closed(r);
   if (t->failed) return;
   t->all_closed = !memchr(r->closed, 0, t->hierarchy->scene->patches);
-  if (!t->all_closed) hr2di_transport_apply_part(t, HR2DI_DISTANT_LINKS, r->one, r->row);
+  if (!t->all_closed) hr2di_transport_apply_part(t, HR2DI_DISTANT_LINKS, r->scratch, r->row);
   if (t->failed) return;
   if (t->links->share)
     t->failed = add_shares(r, t);
   else
     add_all_links(r);
-  hr2di_ties_fold_leaves(&t->ties, t->order, 1, r->exact);
+  hr2di_image_map_fold_leaves(&t->image_map, t->order, 1, r->exact);
   for (size_t k = 0; k < t->leaves; k++) {
     t->failed = hr2di_watch_work(t->watch, 1 + r->product.points * t->order * t->order / 32);
     if (t->failed) return;
@@ -224,7 +224,7 @@ hr2d_status hr2di_closure_set_order_p(hr2di_transport *t) {
   hr2di_rule_init(&r.rule, t->order + MORE_POINTS);
   hr2di_rule_init(&r.product, (3 * t->order) / 2);
   r.number = hr2di_alloc(alloc, t->elements, sizeof *r.number);
-  r.one = hr2di_alloc_zero(alloc, t->leaves * t->width, sizeof *r.one);
+  r.scratch = hr2di_alloc_zero(alloc, t->leaves * t->width, sizeof *r.scratch);
   r.row = hr2di_alloc(alloc, t->leaves * t->width, sizeof *r.row);
   r.all = hr2di_alloc(alloc, t->leaves * t->width, sizeof *r.all);
   r.closed = hr2di_alloc(alloc, t->hierarchy->scene->patches, 1);
@@ -232,7 +232,7 @@ hr2d_status hr2di_closure_set_order_p(hr2di_transport *t) {
   r.exact = hr2di_alloc_zero(alloc, t->leaves * t->order, sizeof *r.exact);
   double *closure = hr2di_alloc(alloc, t->leaves, t->order * t->order * sizeof *closure);
   const int room =
-      r.number && r.one && r.row && r.all && r.closed && r.defect && r.exact && closure;
+      r.number && r.scratch && r.row && r.all && r.closed && r.defect && r.exact && closure;
   if (room) {
     close_rows(&r, t, closure);
     t->closure = closure;
@@ -244,7 +244,7 @@ hr2d_status hr2di_closure_set_order_p(hr2di_transport *t) {
     hr2di_alloc_free(alloc, closure);
   }
   hr2di_alloc_free(alloc, r.number);
-  hr2di_alloc_free(alloc, r.one);
+  hr2di_alloc_free(alloc, r.scratch);
   hr2di_alloc_free(alloc, r.row);
   hr2di_alloc_free(alloc, r.all);
   hr2di_alloc_free(alloc, r.closed);

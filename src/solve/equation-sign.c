@@ -42,10 +42,10 @@ static hr2d_status check_averages(hr2di_equation *s, double min) {
 /* The most that comes from outside. */
 static double brightest(const hr2di_equation *s, size_t band) {
   const hr2di_transport *t = &s->transport;
-  double most = s->background ? s->light[band] : 0;
+  double max = s->background ? s->light[band] : 0;
   for (size_t k = 0; k < t->leaves && s->background && s->outside; k++)
-    most = fmax(most, s->outside[k * t->width + band]);
-  return most;
+    max = fmax(max, s->outside[k * t->width + band]);
+  return max;
 }
 
 /* If B = Q + ρKB and neither K nor Q is negative, then B is negative somewhere if and only if

@@ -15,7 +15,7 @@
 #include "scene/scene-impl.h"
 #include "solve/background.h"
 #include "solve/closure.h"
-#include "solve/outside.h"
+#include "solve/external-irradiance.h"
 #include "solve/row-sums.h"
 
 /* Whether a patch reflects; if none does, closure has nothing to correct. */
@@ -46,7 +46,7 @@ static hr2d_status integrate_rows_order_p(hr2di_equation *s, int closure, int ba
 /* Sets closure and the form factor of the background, which need the rows of all leaves. */
 static hr2d_status integrate_rows(hr2di_equation *s) {
   const int closure = s->options.closure != HR2D_CLOSURE_OFF && reflects(s->transport.scene);
-  const int background = hr2di_outside_wants_sky(s->links->hierarchy->scene);
+  const int background = hr2di_external_wants_sky(s->links->hierarchy->scene);
   if (!closure && !background) return HR2D_OK;
   if (s->transport.order > 1) return integrate_rows_order_p(s, closure, background);
   hr2di_row_sums rows;
@@ -65,7 +65,7 @@ static hr2d_status integrate_blocks(hr2di_equation *s, const hr2di_equation_how 
   const hr2di_blocks_wanted wanted = {
       .order = own > 1 && how->block_order > own ? how->block_order : own,
       .single = how->single,
-      .looks = how->looks,
+      .beam_cache = how->beam_cache,
       .threads = s->options.threads};
   if (wanted.order == 1 || hr2di_link_blocks_made(links, &wanted)) return HR2D_OK;
   const double start = hr2di_clock_now();
@@ -80,7 +80,7 @@ static hr2d_status integrate_blocks(hr2di_equation *s, const hr2di_equation_how 
 static void set_exponents(hr2di_equation *s) {
   const hr2d_scene *scene = s->transport.scene;
   for (size_t b = 0; b < scene->bands; b++) {
-    double max = fmax(hr2di_sky_most(scene, b), hr2d_scene_sun(scene, b).irradiance);
+    double max = fmax(hr2di_sky_max(scene, b), hr2d_scene_sun(scene, b).irradiance);
     for (size_t k = 0; k < scene->patches; k++)
       max = fmax(max, fabs(hr2d_scene_emission(scene, k, b)));
     s->exponent[b] = max > 0 ? ilogb(max) : 0;
@@ -138,10 +138,10 @@ static hr2d_status set_source(hr2di_equation *s) {
 static hr2d_status set_outside(hr2di_equation *s) {
   const hr2di_transport *t = &s->transport;
   const hr2d_scene *scene = t->hierarchy->scene;
-  if (!t->sky && !hr2di_scene_has_sun(scene) && !hr2di_outside_has_pieces(scene))
+  if (!t->sky && !hr2di_scene_has_sun(scene) && !hr2di_external_has_pieces(scene))
     return HR2D_OK;
   s->outside = hr2di_alloc(&s->links->alloc, s->field, sizeof *s->outside);
-  return s->outside ? hr2di_outside_set(t, s->light, s->exponent, s->outside) : HR2D_ENOMEM;
+  return s->outside ? hr2di_external_set(t, s->light, s->exponent, s->outside) : HR2D_ENOMEM;
 }
 
 hr2di_equation_how hr2di_equation_how_of(const hr2d_linkset *links) {
@@ -159,8 +159,8 @@ hr2d_status hr2di_equation_init(hr2di_equation *s, hr2d_linkset *links, const hr
   hr2di_transport *t = &s->transport;
   hr2di_scene_watch(links->hierarchy->scene, &s->watch, options->progress,
                     options->progress_ctx, "rows");
-  s->watch.told.elements = links->hierarchy->elements;
-  s->watch.told.links = links->store.count;
+  s->watch.report.elements = links->hierarchy->elements;
+  s->watch.report.links = links->store.count;
   hr2d_status status = integrate_blocks(s, how);
   if (status) return status;
   hr2di_watch_phase(&s->watch, "rows");
@@ -222,12 +222,12 @@ static int is_enough(void *ctx, const double *r) {
 
 static hr2d_status report(void *ctx, double residual) {
   hr2di_equation *s = ctx;
-  s->looks++;
+  s->residuals++;
   if (s->transport.failed) return s->transport.failed;
   const double digits = residual > 0 ? log(residual) / log(s->options.tolerance) : 1;
   hr2di_watch *watch = s->transport.watch;
-  watch->told.fraction = fmin(fmax(digits, 0), 1);
-  watch->told.residual = residual;
+  watch->report.fraction = fmin(fmax(digits, 0), 1);
+  watch->report.residual = residual;
   return hr2di_watch_ask(watch);
 }
 
@@ -279,12 +279,12 @@ hr2d_status hr2di_equation_solve(hr2di_equation *s) {
   double residual = 0;
   hr2d_status status = hr2di_krylov(&system, s->b, s->y, &residual);
   if (s->transport.failed) status = s->transport.failed;
-  if (status == HR2D_ENOT_CONVERGED && s->looks <= s->options.max_iterations)
+  if (status == HR2D_ENOT_CONVERGED && s->residuals <= s->options.max_iterations)
     return hr2di_message_fail(
         &s->links->message, status,
         "after %llu iterations I − ρK is found not to be positive definite: rows "
         "of the links exceed 1, and closure or finer links are needed",
-        (unsigned long long)s->looks);
+        (unsigned long long)s->residuals);
   if (status == HR2D_ENOT_CONVERGED)
     return hr2di_message_fail(
         &s->links->message, status,

@@ -9,17 +9,17 @@
 #include "base/krylov.h"
 #include "solve/energy-balance.h"
 #include "solve/transport.h"
-#include "visibility/looks.h"
+#include "visibility/beam-cache.h"
 
 /* When a solve may end before its residual has the tolerance: see equation-enough.c. */
-typedef struct hr2di_enough {
+typedef struct hr2di_stopping_test {
   double part;          /* that the residual may have; 0: the tolerance alone counts */
   double floor;         /* without weights: no leaf counts as less bright, relative to the
                            brightest */
   const double *weight; /* leaves × bands: of values that are solved for; NULL: each leaf is
                            compared with what it reflects */
   int summed;           /* sums over all leaves are compared, not the largest values */
-} hr2di_enough;
+} hr2di_stopping_test;
 
 typedef struct hr2di_equation {
   hr2d_linkset *links;
@@ -42,21 +42,21 @@ typedef struct hr2di_equation {
   double *irradiance; /* of `radiosity` */
   double *y, *b, *work;
   double *norm[2]; /* per band */
-  hr2di_enough enough;
+  hr2di_stopping_test enough;
   uint64_t row_sums, kernels;
   double coefficients_seconds;
-  uint64_t looks; /* residuals seen: one before the first iteration, one after each */
+  uint64_t residuals; /* residuals seen: one before the first iteration, one after each */
 } hr2di_equation;
 
 /* What no public option says of an equation. */
 typedef struct hr2di_equation_how {
-  size_t order;             /* coefficients on each leaf; 0: those of the hierarchy */
-  size_t block_order;       /* links get blocks for so many, if these are more */
-  int single;               /* blocks that are made are of floats */
-  const hr2di_roots *roots; /* whose clusters exchange light, as long as the equation lives;
-                               NULL: those of the links */
-  hr2di_looks *looks;       /* keeps what patches see; NULL: nothing is kept */
-  hr2di_enough enough;
+  size_t order;                 /* coefficients on each leaf; 0: those of the hierarchy */
+  size_t block_order;           /* links get blocks for so many, if these are more */
+  int single;                   /* blocks that are made are of floats */
+  const hr2di_roots *roots;     /* whose clusters exchange light, as long as the equation lives;
+                                   NULL: those of the links */
+  hr2di_beam_cache *beam_cache; /* keeps what patches see; NULL: nothing is kept */
+  hr2di_stopping_test enough;
   const hr2d_solution *start; /* a solve begins with it if it is given no other start: of
                                  elements of which these are a copy, some divided; NULL: none */
 } hr2di_equation_how;
@@ -64,10 +64,10 @@ typedef struct hr2di_equation_how {
 /* As hr2d_solve() has it: blocks stay of floats if they are. */
 hr2di_equation_how hr2di_equation_how_of(const hr2d_linkset *links);
 
-/* For E and ρ of a scene: that of the links, or a settled one of it, see settled.h.  Integrates
-   blocks if the links have none, and row sums if they are called for.  Returns
-   HR2D_OK, HR2D_ENOMEM, or the status of the progress callback.  Call hr2di_equation_clear() in
-   any case.  The struct must not be moved. */
+/* For E and ρ of a scene: that of the links, or one of frozen temperatures of it, see
+   frozen-temperatures.h.  Integrates blocks if the links have none, and row sums if they are
+   called for.  Returns HR2D_OK, HR2D_ENOMEM, or the status of the progress callback.  Call
+   hr2di_equation_clear() in any case.  The struct must not be moved. */
 hr2d_status hr2di_equation_init(hr2di_equation *eq, hr2d_linkset *links,
                                 const hr2d_scene *scene, const hr2di_equation_how *how,
                                 const hr2d_solve_options *options);

@@ -23,15 +23,15 @@ typedef struct exchange {
 static hr2d_status add_clusters(const hr2d_linkset *links, exchange *e, hr2di_watch *watch) {
   const size_t n = links->hierarchy->scene->patches;
   if (!links->roots.clusters) return HR2D_OK;
-  double *one = hr2di_alloc_zero(&links->alloc, 2 * n, sizeof *one);
-  if (!one) return HR2D_ENOMEM;
-  double *power = one + n;
-  for (size_t k = 0; k < n; k++) one[k] = 1;
+  double *unit = hr2di_alloc_zero(&links->alloc, 2 * n, sizeof *unit);
+  if (!unit) return HR2D_ENOMEM;
+  double *power = unit + n;
+  for (size_t k = 0; k < n; k++) unit[k] = 1;
   const hr2di_cluster_gather how = {
       .order = 1, .bands = 1, .share = links->share, .threads = 1, .watch = watch};
-  const hr2d_status status = hr2di_clusters_gather(links->roots.clusters, &how, one, power);
+  const hr2d_status status = hr2di_clusters_gather(links->roots.clusters, &how, unit, power);
   for (size_t k = 0; k < n; k++) hr2di_sum_add(&e->escape[k], -power[k]);
-  hr2di_alloc_free(&links->alloc, one);
+  hr2di_alloc_free(&links->alloc, unit);
   return status;
 }
 

@@ -56,11 +56,11 @@ static hr2d_status reserve(hr2di_heat_balance *h) {
   return HR2D_OK;
 }
 
-hr2d_status hr2di_heat_balance_init(hr2di_heat_balance *h, hr2d_scene *settled,
+hr2d_status hr2di_heat_balance_init(hr2di_heat_balance *h, hr2d_scene *frozen,
                                     hr2d_linkset *links, const hr2d_solve_options *options) {
-  *h = (hr2di_heat_balance){.scene = settled};
+  *h = (hr2di_heat_balance){.scene = frozen};
   const hr2di_equation_how how = hr2di_equation_how_of(links);
-  hr2d_status status = hr2di_equation_init(&h->eq, links, settled, &how, options);
+  hr2d_status status = hr2di_equation_init(&h->eq, links, frozen, &how, options);
   if (!status) status = reserve(h);
   if (status) hr2di_message_fail(&links->message, status, "%s", hr2d_strerror(status));
   return status;
@@ -96,7 +96,7 @@ static hr2d_status set_source(hr2di_heat_balance *h, int alone) {
 hr2d_status hr2di_heat_balance_source(hr2di_heat_balance *h,
                                       const hr2d_solve_options *options) {
   h->eq.background = 1;
-  h->eq.looks = 0;
+  h->eq.residuals = 0;
   h->eq.options.tolerance =
       options->tolerance > 0 ? options->tolerance : HR2D_DEFAULT_TOLERANCE;
   return set_source(h, 0);
@@ -117,7 +117,7 @@ static hr2d_status solve(hr2di_heat_balance *h, int alone) {
   hr2di_equation *eq = &h->eq;
   hr2d_status status = set_source(h, alone);
   eq->background = !alone;
-  eq->looks = 0;
+  eq->residuals = 0;
   eq->options.tolerance = alone ? STEP_SOLVE : HR2D_DEFAULT_TOLERANCE;
   if (!status) status = hr2di_equation_solve(eq);
   if (!status && !alone) status = hr2di_equation_settle_power(eq);
@@ -133,7 +133,7 @@ static hr2d_status set_radiance(hr2di_heat_balance *h) {
   for (size_t k = 0; k < h->count && !status; k++) {
     status = hr2di_watch_work(&h->eq.watch, PLANCK * h->scene->bands);
     if (status) break;
-    status = hr2di_settled_set(h->scene, h->patch[k], h->radiance[k]);
+    status = hr2di_frozen_set(h->scene, h->patch[k], h->radiance[k]);
     if (status)
       hr2di_message_fail(
           &h->eq.links->message, status,
@@ -146,7 +146,7 @@ static hr2d_status set_radiance(hr2di_heat_balance *h) {
 /* ∂E_b/∂S, with the change of ε of what is absorbed and sent back: where ε depends on T, B has
    ε'(f_b S − H̄_b) besides. */
 static double rise_of(const hr2di_heat_balance *h, size_t patch, size_t band) {
-  const double rise = hr2di_settled_rise(h->scene, patch, band);
+  const double rise = hr2di_frozen_rise(h->scene, patch, band);
   const double radiance = h->scene->found[patch].radiance;
   const hr2d_scene *scene = hr2di_scene_origin(h->scene);
   if (!(radiance > 0) || !hr2di_emissivity_depends(scene, patch)) return rise;
@@ -166,11 +166,11 @@ static void set_slope(hr2di_heat_balance *h, size_t k) {
   for (size_t b = 0; b < bands; b++) {
     h->rise[k * bands + b] = rise_of(h, h->patch[k], b);
     h->slope[k] += h->rise[k * bands + b];
-    plain += hr2di_settled_rise(h->scene, h->patch[k], b);
+    plain += hr2di_frozen_rise(h->scene, h->patch[k], b);
   }
   if (h->slope[k] >= LEAST_SLOPE * plain) return;
   for (size_t b = 0; b < bands; b++)
-    h->rise[k * bands + b] = hr2di_settled_rise(h->scene, h->patch[k], b);
+    h->rise[k * bands + b] = hr2di_frozen_rise(h->scene, h->patch[k], b);
   h->slope[k] = plain;
 }
 
@@ -278,14 +278,14 @@ static double radiance_of(hr2d_scene *scene, size_t patch, double power, double 
   double s = fmin(fmax(guess, low), high);
   for (int k = 0; k < ROOTS && high > low; k++) {
     double rise = 0;
-    hr2di_settled_set(scene, patch, s);
+    hr2di_frozen_set(scene, patch, s);
     const double over = emitted(scene, patch) - power;
     if (fabs(over) <= DBL_EPSILON * power) break;
     if (over > 0)
       high = s;
     else
       low = s;
-    for (size_t b = 0; b < scene->bands; b++) rise += hr2di_settled_rise(scene, patch, b);
+    for (size_t b = 0; b < scene->bands; b++) rise += hr2di_frozen_rise(scene, patch, b);
     const double next = s - over / rise;
     s = next > low && next < high ? next : 0.5 * (low + high);
   }
@@ -303,7 +303,7 @@ static hr2d_status take_step(hr2di_heat_balance *h, int halvings) {
       h->radiance[k] = fmax(h->old[k] + ldexp(h->step[k], -halvings), h->old[k] / 16);
       continue;
     }
-    hr2di_settled_set(h->scene, h->patch[k], h->old[k]);
+    hr2di_frozen_set(h->scene, h->patch[k], h->old[k]);
     const double power = emitted(h->scene, h->patch[k]) + ldexp(h->gain[k], -halvings);
     const double rest = 1 - hr2d_scene_reflectance(h->scene, h->patch[k], h->scene->bands - 1);
     h->radiance[k] =

@@ -22,7 +22,7 @@
 #ifndef HR2D_SRC_SOLVE_HEAT_BALANCE_H
 #define HR2D_SRC_SOLVE_HEAT_BALANCE_H
 
-#include "scene/settled.h"
+#include "scene/frozen-temperatures.h"
 #include "solve/equation.h"
 
 typedef struct hr2di_heat_balance {
@@ -50,7 +50,7 @@ typedef struct hr2di_heat_balance {
 /* Sets up the balance on links of the scene or of its origin; `start` of the options does not
    matter.  Call hr2di_heat_balance_clear() in any
    case; the struct must not be moved. */
-hr2d_status hr2di_heat_balance_init(hr2di_heat_balance *balance, hr2d_scene *settled,
+hr2d_status hr2di_heat_balance_init(hr2di_heat_balance *balance, hr2d_scene *frozen,
                                     hr2d_linkset *links, const hr2d_solve_options *options);
 void hr2di_heat_balance_clear(hr2di_heat_balance *balance);
 
@@ -59,7 +59,8 @@ void hr2di_heat_balance_clear(hr2di_heat_balance *balance);
    the links. */
 hr2d_status hr2di_heat_balance_settle(hr2di_heat_balance *balance);
 
-/* Gives the equation the E of the settled scene, for a solve with these options. */
+/* Gives the equation the E of the scene of frozen temperatures, for a solve with these options.
+ */
 hr2d_status hr2di_heat_balance_source(hr2di_heat_balance *balance,
                                       const hr2d_solve_options *options);
 

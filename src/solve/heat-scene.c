@@ -11,40 +11,40 @@
 
 /* What the hottest patch emits, or the largest flux if nothing else gives heat. */
 static double brightest(const hr2d_scene *scene) {
-  double most = 0, heat = 0;
-  for (size_t b = 0; b < scene->bands; b++) most += hr2d_scene_background(scene, b);
+  double max = 0, heat = 0;
+  for (size_t b = 0; b < scene->bands; b++) max += hr2d_scene_background(scene, b);
   for (size_t k = 0; k < scene->patches; k++) {
     double sum = 0, value;
     const hr2d_heat given = hr2d_scene_heat(scene, k, &value);
     for (size_t b = 0; b < scene->bands && given == HR2D_HEAT_NONE; b++)
       sum += hr2d_scene_emission(scene, k, b);
-    most = fmax(most, given == HR2D_HEAT_TEMPERATURE ? hr2d_black_body(value) : sum);
+    max = fmax(max, given == HR2D_HEAT_TEMPERATURE ? hr2d_black_body(value) : sum);
     if (given == HR2D_HEAT_FLUX) heat = fmax(heat, fabs(value));
   }
-  return most > 0 ? most : heat;
+  return max > 0 ? max : heat;
 }
 
 hr2d_status hr2di_heat_scene_create(const hr2d_scene *scene, const hr2d_solution *start,
                                     hr2d_progress_fn progress, void *progress_ctx,
-                                    hr2d_scene **settled) {
+                                    hr2d_scene **frozen) {
   hr2d_scene *made = NULL;
   const hr2di_found *former = start && start->own_scene ? start->own_scene->found : NULL;
-  hr2d_status status = hr2di_settled_create(scene, &made);
+  hr2d_status status = hr2di_frozen_create(scene, &made);
   if (status) return status;
-  const double most = brightest(scene);
+  const double max = brightest(scene);
   double flux;
   hr2di_watch watch;
   hr2di_scene_watch(scene, &watch, progress, progress_ctx, "solve");
   for (size_t k = 0; k < hr2di_scene_cell(scene) && !status; k++) {
     if (hr2d_scene_heat(scene, k, &flux) != HR2D_HEAT_FLUX) continue;
-    const double bright = hr2di_scene_lit(scene, k) ? most + fmax(flux, 0) : 0;
+    const double bright = hr2di_scene_lit(scene, k) ? max + fmax(flux, 0) : 0;
     status = hr2di_watch_work(&watch, 10 * scene->bands);
-    if (!status) status = hr2di_settled_set(made, k, former ? former[k].radiance : bright);
+    if (!status) status = hr2di_frozen_set(made, k, former ? former[k].radiance : bright);
   }
   if (status)
-    hr2di_settled_destroy(made);
+    hr2di_frozen_destroy(made);
   else
-    *settled = made;
+    *frozen = made;
   return status;
 }
 
@@ -55,15 +55,15 @@ const char *hr2di_heat_scene_failure(hr2d_status status) {
 }
 
 hr2d_status hr2di_heat_scene_check(hr2di_heat_balance *h) {
-  size_t least = 0;
+  size_t min = 0;
   for (size_t k = 0; k < h->count; k++) {
-    if (h->radiance[k] < h->radiance[least]) least = k;
+    if (h->radiance[k] < h->radiance[min]) min = k;
     if (h->radiance[k] < 0 && h->radiance[k] >= -ROUND * h->size[k])
-      hr2di_settled_set(h->scene, h->patch[k], 0);
+      hr2di_frozen_set(h->scene, h->patch[k], 0);
   }
-  if (!h->count || h->radiance[least] >= -ROUND * h->size[least]) return HR2D_OK;
+  if (!h->count || h->radiance[min] >= -ROUND * h->size[min]) return HR2D_OK;
   return hr2di_message_fail(
       &h->eq.links->message, HR2D_ENO_SOLUTION,
       "no solution: %.80s cannot lose so much heat: it would have to be colder than 0 K",
-      hr2di_patch_label(h->scene, h->patch[least]).text);
+      hr2di_patch_label(h->scene, h->patch[min]).text);
 }

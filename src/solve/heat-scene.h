@@ -6,12 +6,12 @@
 
 #include "solve/heat-balance.h"
 
-/* Makes a settled scene with a guess of the temperatures: those of `start`, a solution on
-   settled temperatures of the same scene, or where that is NULL of a bright room.  HR2D_OK,
-   HR2D_ENOMEM, HR2D_ECALLBACK or the status of the callback. */
+/* Makes a scene of frozen temperatures with a guess of the temperatures: those of `start`, a
+   solution on frozen temperatures of the same scene, or where that is NULL of a bright room.
+   HR2D_OK, HR2D_ENOMEM, HR2D_ECALLBACK or the status of the callback. */
 hr2d_status hr2di_heat_scene_create(const hr2d_scene *scene, const hr2d_solution *start,
                                     hr2d_progress_fn progress, void *progress_ctx,
-                                    hr2d_scene **settled);
+                                    hr2d_scene **frozen);
 
 /* A phrase for the failure of the former. */
 const char *hr2di_heat_scene_failure(hr2d_status status);

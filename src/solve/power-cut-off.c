@@ -17,14 +17,14 @@
 /* Fields of leaves: a radiosity, what a check leaves of its irradiance, and the largest of
    these over the checks, for B and for L. */
 typedef struct fields {
-  double *from, *to, *most[2];
+  double *from, *to, *max[2];
   double *sky;  /* per element: what a check leaves of the form factor of the sky, or the series
                    makes of it, */
   double *ends; /* and the form factor of what is past the ends */
 } fields;
 
-static void take_largest(const hr2di_transport *t, const double *check, double *most) {
-  for (size_t k = 0; k < t->leaves * t->width; k++) most[k] = fmax(most[k], fabs(check[k]));
+static void take_largest(const hr2di_transport *t, const double *check, double *max) {
+  for (size_t k = 0; k < t->leaves * t->width; k++) max[k] = fmax(max[k], fabs(check[k]));
 }
 
 static void set_light(const hr2di_equation *s, double *field) {
@@ -47,23 +47,23 @@ static void add_sky(const hr2di_equation *s, const fields *f, const double *radi
 }
 
 static void run_check(hr2di_equation *s, int check, const fields *f, const double *radiosity,
-                      double *most) {
+                      double *max) {
   hr2di_transport_check(&s->transport, check, radiosity, f->to);
   add_sky(s, f, radiosity);
-  take_largest(&s->transport, f->to, most);
+  take_largest(&s->transport, f->to, max);
 }
 
 /* The largest radiosity of a band. */
 static double brightest(const hr2di_equation *s, size_t band) {
   const hr2di_transport *t = &s->transport;
-  double most = 0;
+  double max = 0;
   for (size_t k = 0; k < t->leaves; k++) {
     double sum = 0;
     for (size_t l = 0; l < t->order; l++)
       sum += fabs(s->radiosity[k * t->width + l * t->bands + band]) * sqrt(2 * (double)l + 1);
-    most = fmax(most, sum);
+    max = fmax(max, sum);
   }
-  return most;
+  return max;
 }
 
 /* Adds what may be past the ends. */
@@ -72,18 +72,17 @@ static void add_ends(const hr2di_equation *s, const fields *f) {
   for (size_t b = 0; b < t->bands; b++) {
     const double light[] = {brightest(s, b), t->sky ? s->light[b] : 0};
     for (size_t k = 0; k < t->leaves; k++)
-      for (int m = 0; m < 2; m++)
-        f->most[m][k * t->width + b] += f->ends[t->leaf[k]] * light[m];
+      for (int m = 0; m < 2; m++) f->max[m][k * t->width + b] += f->ends[t->leaf[k]] * light[m];
   }
 }
 
 static hr2d_status run_all(hr2di_equation *s, const fields *f) {
   hr2di_transport *t = &s->transport;
   const hr2d_status status = hr2di_row_tails_seen(t->hierarchy, f->ends, f->sky, t->watch);
-  for (size_t k = 0; k < s->field; k++) f->most[0][k] = f->most[1][k] = 0;
+  for (size_t k = 0; k < s->field; k++) f->max[0][k] = f->max[1][k] = 0;
   if (status) return status;
-  run_check(s, HR2DI_CHECK_ALL, f, s->radiosity, f->most[0]);
-  if (t->sky) run_check(s, HR2DI_CHECK_ALL, f, f->from, f->most[1]);
+  run_check(s, HR2DI_CHECK_ALL, f, s->radiosity, f->max[0]);
+  if (t->sky) run_check(s, HR2DI_CHECK_ALL, f, f->from, f->max[1]);
   add_ends(s, f);
   return hr2di_transport_status(t);
 }
@@ -95,20 +94,20 @@ static hr2d_status run_checks(hr2di_equation *s, const fields *f) {
   if (t->sky) set_light(s, f->from);
   for (int check = 0; check < HR2DI_TAIL_CHECKS && !status; check++) {
     if (looks) status = hr2di_row_tails_check(t->hierarchy, check, f->sky, t->watch);
-    if (!status) run_check(s, check, f, s->radiosity, f->most[0]);
-    if (!status && t->sky) run_check(s, check, f, f->from, f->most[1]);
+    if (!status) run_check(s, check, f, s->radiosity, f->max[0]);
+    if (!status && t->sky) run_check(s, check, f, f->from, f->max[1]);
     if (!status) status = hr2di_transport_status(t);
   }
   return status;
 }
 
-static double power_of(const hr2di_equation *s, const double *most, size_t band) {
+static double power_of(const hr2di_equation *s, const double *max, size_t band) {
   const hr2di_transport *t = &s->transport;
   const size_t cell = hr2di_scene_cell(t->scene);
   double sum = 0;
   for (size_t k = 0; k < t->leaves; k++)
     if (t->hierarchy->element[t->leaf[k]].patch < cell)
-      sum += s->weight[k * t->order] * most[k * t->width + band];
+      sum += s->weight[k * t->order] * max[k * t->width + band];
   return sum;
 }
 
@@ -119,16 +118,16 @@ hr2d_status hr2di_power_cut_off(hr2di_equation *s, double *off) {
   if (!room) return HR2D_ENOMEM;
   const fields f = {.from = room,
                     .to = room + s->field,
-                    .most = {room + 2 * s->field, room + 3 * s->field},
+                    .max = {room + 2 * s->field, room + 3 * s->field},
                     .sky = room + 4 * s->field,
                     .ends = room + 4 * s->field + t->elements};
   hr2d_status status = run_checks(s, &f);
   for (size_t b = 0; b < t->bands && !status; b++)
-    off[b] = HR2DI_TAIL_BOUND * fmax(power_of(s, f.most[0], b), power_of(s, f.most[1], b));
+    off[b] = HR2DI_TAIL_BOUND * fmax(power_of(s, f.max[0], b), power_of(s, f.max[1], b));
   const int few = t->scene->symmetry.copies <= HR2DI_FEW_COPIES;
   if (!status && few) status = run_all(s, &f);
   for (size_t b = 0; b < t->bands && !status; b++) {
-    const double all = fmax(power_of(s, f.most[0], b), power_of(s, f.most[1], b));
+    const double all = fmax(power_of(s, f.max[0], b), power_of(s, f.max[1], b));
     off[b] = ldexp(unit * (few ? fmin(off[b], all) : off[b]), s->exponent[b]);
   }
   hr2di_alloc_free(&t->alloc, room);

@@ -2,24 +2,24 @@
 /* Row sums of leaves.
 
    If a patch sees patches in every direction, so do its leaves: their sums are 1.  Other
-   patches send beams.  A sight that ends at a front is a part of the sums over patches, one
-   that ends at a back of those over backs: a leaf takes the lines that start on it.  Patches
-   side by side that a sight ends on are seen as one.
+   patches send beams.  A line class that ends at a front is a part of the sums over patches,
+   one that ends at a back of those over backs: a leaf takes the lines that start on it. Patches
+   side by side that a line class ends on are seen as one.
 
    A tree is walked down as far as something bounds the view but its elements; where nothing
-   does, the lines from a leaf are all lines to the segment where the sight ends. */
+   does, the lines from a leaf are all lines to the segment where the line class ends. */
 #include "solve/row-sums.h"
 
 #include <hr2d/operator.h>
 
 #include "base/alloc.h"
+#include "beams/line-class-list.h"
 #include "geometry/exchange-area.h"
 #include "geometry/predicates.h"
 #include "geometry/vector.h"
 #include "hierarchy/hierarchy-impl.h"
 #include "links/patch-defect.h"
 #include "scene/with-plane.h"
-#include "sight/sight-list.h"
 #include "solve/row-tails.h"
 
 /* Elements that wait, one per level. */
@@ -32,12 +32,12 @@ typedef struct walker {
   hr2di_with_plane with;   /* `scene` once beams are sent */
   hr2di_watch *watch;
   hr2di_walk walk;
-  unsigned char *kind;     /* per side, as hr2di_side_kind() */
-  uint32_t patch;          /* that looks */
-  hr2di_wall_side from;    /* where its beams start */
-  hr2di_sight_list seen;   /* the sight that a beam has found */
-  hr2di_sight_list part;   /* what an element has of it */
-  hr2di_sum *front, *back; /* per element, set for leaves; `back` is NULL if not asked for */
+  unsigned char *kind;        /* per side, as hr2di_side_kind() */
+  uint32_t patch;             /* that looks */
+  hr2di_wall_side from;       /* where its beams start */
+  hr2di_line_class_list seen; /* the line class that a beam has found */
+  hr2di_line_class_list part; /* what an element has of it */
+  hr2di_sum *front, *back;    /* per element, set for leaves; `back` is NULL if not asked for */
   uint32_t stack[DEPTH];
 } walker;
 
@@ -57,10 +57,10 @@ static hr2d_status add_clear(walker *w, uint32_t top, hr2d_segment far, hr2di_su
 }
 
 /* Adds the length that each leaf shares with a stretch of the patch, times a factor. */
-static hr2d_status add_length(walker *w, hr2d_segment stretch, hr2di_sum *sum, double factor) {
+static hr2d_status add_length(walker *w, hr2d_segment arc, hr2di_sum *sum, double factor) {
   const hr2d_segment line = w->scene->patch[w->patch].scaled;
-  const double start = hr2di_point_along(line, stretch.a);
-  const double end = hr2di_point_along(line, stretch.b);
+  const double start = hr2di_point_along(line, arc.a);
+  const double end = hr2di_point_along(line, arc.b);
   hr2d_status status = HR2D_OK;
   size_t count = 0;
   if (sum) w->stack[count++] = w->patch;
@@ -85,7 +85,8 @@ static int is_all_of(const hr2d_element *e, hr2d_segment s) {
   return hr2di_point_same(s.a, e->a) && hr2di_point_same(s.b, e->b);
 }
 
-/* Adds to the leaves what they have of the sight that was seen, as far as it ends on `far`. */
+/* Adds to the leaves what they have of the line class that was seen, as far as it ends on
+ * `far`. */
 static hr2d_status add_sight(walker *w, hr2d_segment far, hr2di_sum *sum) {
   hr2d_status status = HR2D_OK;
   size_t count = 0;
@@ -93,17 +94,17 @@ static hr2d_status add_sight(walker *w, hr2d_segment far, hr2di_sum *sum) {
   while (count > 0 && !status) {
     const uint32_t k = w->stack[--count];
     const hr2d_element *e = &w->h->element[k];
-    hr2di_sight_list_cut(&w->part, 0);
+    hr2di_line_class_list_cut(&w->part, 0);
     status = hr2di_watch_work(w->watch, 1 + w->seen.points / 8);
     if (!status)
-      status = hr2di_sight_list_restrict(&w->part, &w->seen, 0, 1, (hr2d_segment){e->a, e->b},
-                                         far, NULL);
+      status = hr2di_line_class_list_restrict(&w->part, &w->seen, 0, 1,
+                                              (hr2d_segment){e->a, e->b}, far, NULL);
     if (status || w->part.count == 0) continue;
-    const hr2di_sight s = hr2di_sight_list_at(&w->part, 0);
-    if (hr2di_sight_clear(&s) && is_all_of(e, w->part.sight[0].near)) {
-      status = add_clear(w, k, w->part.sight[0].far, sum);
+    const hr2di_line_class s = hr2di_line_class_list_at(&w->part, 0);
+    if (hr2di_line_class_clear(&s) && is_all_of(e, w->part.line_class[0].near)) {
+      status = add_clear(w, k, w->part.line_class[0].far, sum);
     } else if (!e->child) {
-      hr2di_sum_add(&sum[k], hr2di_sight_area(&s));
+      hr2di_sum_add(&sum[k], hr2di_line_class_area(&s));
     } else {
       w->stack[count++] = e->child + 1;
       w->stack[count++] = e->child;
@@ -112,7 +113,7 @@ static hr2d_status add_sight(walker *w, hr2d_segment far, hr2di_sum *sum) {
   return status;
 }
 
-/* A sight that ends where patches and stretches without patches take turns. */
+/* A line class that ends where patches and stretches without patches take turns. */
 static hr2d_status add_stretches(walker *w, hr2di_parts along) {
   const hr2di_side_part *part = w->scene->parts.part;
   hr2d_status status = HR2D_OK;
@@ -128,16 +129,16 @@ static hr2d_status add_stretches(walker *w, hr2di_parts along) {
   return status;
 }
 
-static hr2d_status take(void *ctx, const hr2di_sight *s, hr2di_wall_side j) {
+static hr2d_status take(void *ctx, const hr2di_line_class *s, hr2di_wall_side j) {
   walker *w = ctx;
   const hr2di_side *of_side = w->scene->parts.of_side;
   const hr2di_triangulation *t = &w->scene->plane.triangulation;
   const hr2d_segment far = hr2di_wall_side_at(t, j);
   if (of_side[j].wall == of_side[w->from].wall)
     return HR2D_OK; /* of a wall that roundings have bent */
-  hr2di_sight_list_cut(&w->seen, 0);
+  hr2di_line_class_list_cut(&w->seen, 0);
   const hr2d_status status =
-      hr2di_sight_list_add(&w->seen, s, hr2di_wall_side_at(t, w->from), far);
+      hr2di_line_class_list_add(&w->seen, s, hr2di_wall_side_at(t, w->from), far);
   if (status) return status;
   if (w->kind[j] == HR2DI_HAS_FRONT) return add_sight(w, far, w->front);
   if (w->kind[j] == HR2DI_HAS_BACK) return add_sight(w, far, w->back);
@@ -168,7 +169,7 @@ static hr2d_status add_hidden(walker *w) {
 }
 
 /* Where there is no plane, nothing is in the way. */
-static hr2d_status look_at_all(walker *w) {
+static hr2d_status examine_all(walker *w) {
   const hr2d_scene *scene = w->scene;
   const hr2d_segment s = scene->patch[w->patch].scaled;
   hr2d_status status = HR2D_OK;
@@ -181,9 +182,9 @@ static hr2d_status look_at_all(walker *w) {
   return status;
 }
 
-static hr2d_status look_around(walker *w) {
+static hr2d_status view_around(walker *w) {
   const hr2di_side_parts *p = &w->scene->parts;
-  if (!p->wanted) return look_at_all(w);
+  if (!p->wanted) return examine_all(w);
   const hr2di_parts of = p->of_patch[w->patch];
   hr2d_status status = add_hidden(w);
   for (uint32_t k = of.first; k < of.last && !status; k++) {
@@ -257,7 +258,7 @@ static hr2d_status make_rows(hr2di_row_sums *rows, const hr2d_linkset *links, wa
     const int open = !rows->closed[k];
     w->patch = k;
     if (open && !w->kind) status = prepare(w, &rows->alloc);
-    if (open && !status) status = look_around(w);
+    if (open && !status) status = view_around(w);
     const uint64_t leaves = finish(w, k, !open, rows->front, rows->back);
     rows->leaves += open ? leaves : 0;
     if (open && !status) status = move_tails(w, rows->front, rows->back);
@@ -282,8 +283,8 @@ static hr2d_status combine_rows(hr2di_row_sums *rows, hr2d_share *share, size_t 
 static void clear(walker *w, const hr2d_allocator *alloc) {
   hr2di_with_plane_clear(&w->with);
   hr2di_walk_clear(&w->walk);
-  hr2di_sight_list_clear(&w->seen);
-  hr2di_sight_list_clear(&w->part);
+  hr2di_line_class_list_clear(&w->seen);
+  hr2di_line_class_list_clear(&w->part);
   hr2di_alloc_free(alloc, w->kind);
   hr2di_alloc_free(alloc, w->front);
   hr2di_alloc_free(alloc, w->back);
@@ -317,8 +318,8 @@ hr2d_status hr2di_row_sums_init(hr2di_row_sums *rows, const hr2di_transport *t, 
   if (!rows->front || !rows->closed || !defect || (backs && !rows->back)) status = HR2D_ENOMEM;
   if (!status) status = make_rows(rows, t->links, w, defect);
   if (t->links->share) status = combine_rows(rows, t->links->share, t->elements, status);
-  if (!status) hr2di_ties_spread(&t->ties, 1, 1, rows->front);
-  if (!status && backs) hr2di_ties_spread(&t->ties, 1, 1, rows->back);
+  if (!status) hr2di_image_map_spread(&t->image_map, 1, 1, rows->front);
+  if (!status && backs) hr2di_image_map_spread(&t->image_map, 1, 1, rows->back);
   if (w) clear(w, alloc);
   hr2di_alloc_free(alloc, defect);
   return status;
@@ -345,7 +346,7 @@ hr2d_status hr2d_leaf_sums(const hr2d_hierarchy *hierarchy, size_t row_from, siz
   if (!status) status = prepare(w, alloc);
   for (size_t k = row_from; k < row_to && !status; k++) {
     w->patch = (uint32_t)k;
-    status = look_around(w);
+    status = view_around(w);
     finish(w, w->patch, 0, front, back);
     if (!status) status = move_tails(w, front, back);
     if (!status) status = hr2di_watch_work(&watch, 1);

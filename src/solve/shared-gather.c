@@ -7,7 +7,7 @@
 
    the terms of coefficient l of an element add up to A √(2l+1) max s_j at most, where j are the
    elements that it is linked with.  So a dark element has all its digits, too.  Images that
-   stand for others count more than once: see hr2di_symmetry_most(). */
+   stand for others count more than once: see hr2di_symmetry_max(). */
 #include "solve/shared-gather.h"
 
 #include <math.h>
@@ -31,7 +31,7 @@ struct hr2di_shared {
   size_t begin[MOST_PARTS + 1]; /* where the elements of each part begin */
   hr2di_bin *bin;               /* elements × width */
   double *size;                 /* elements × bands: s of the element */
-  double *most; /* likewise: the largest s of those that it is linked with, then σ */
+  double *max;  /* likewise: the largest s of those that it is linked with, then σ */
   double *term; /* per part two products with a block, and what is behind them */
 };
 
@@ -74,16 +74,16 @@ hr2d_status hr2di_shared_gather_init(hr2di_transport *t) {
   const size_t bands = t->bands * sizeof(double);
   s->bin = hr2di_alloc(&t->alloc, t->elements, t->width * sizeof *s->bin);
   s->size = hr2di_alloc(&t->alloc, t->elements, bands);
-  s->most = hr2di_alloc(&t->alloc, t->elements, bands);
+  s->max = hr2di_alloc(&t->alloc, t->elements, bands);
   s->term = hr2di_alloc(&t->alloc, 3 * s->parts, t->width * sizeof *s->term);
-  return s->bin && s->size && s->most && s->term ? HR2D_OK : HR2D_ENOMEM;
+  return s->bin && s->size && s->max && s->term ? HR2D_OK : HR2D_ENOMEM;
 }
 
 void hr2di_shared_gather_clear(hr2di_transport *t) {
   if (!t->shared) return;
   hr2di_alloc_free(&t->alloc, t->shared->bin);
   hr2di_alloc_free(&t->alloc, t->shared->size);
-  hr2di_alloc_free(&t->alloc, t->shared->most);
+  hr2di_alloc_free(&t->alloc, t->shared->max);
   hr2di_alloc_free(&t->alloc, t->shared->term);
   hr2di_alloc_free(&t->alloc, t->shared);
   t->shared = NULL;
@@ -115,10 +115,10 @@ static int takes(const pass *p, uint64_t link) {
   return !p->distant || p->t->order == 1 || p->t->blocks.distant[link];
 }
 
-static void raise_most(const hr2di_transport *t, uint32_t to, uint32_t from) {
+static void raise_max(const hr2di_transport *t, uint32_t to, uint32_t from) {
   const double *size = t->shared->size + from * t->bands;
-  double *most = t->shared->most + to * t->bands;
-  for (size_t b = 0; b < t->bands; b++) most[b] = fmax(most[b], size[b]);
+  double *max = t->shared->max + to * t->bands;
+  for (size_t b = 0; b < t->bands; b++) max[b] = fmax(max[b], size[b]);
 }
 
 /* Finds σ of all elements. */
@@ -126,33 +126,33 @@ static void set_scales(const pass *p) {
   hr2di_transport *t = p->t;
   const hr2di_store *store = &t->links->store;
   const size_t values = t->elements * t->bands;
-  double *most = t->shared->most;
-  memset(most, 0, values * sizeof *most);
+  double *max = t->shared->max;
+  memset(max, 0, values * sizeof *max);
   for (uint64_t k = 0; k < store->count; k++) {
     if (k % 64 == 0 && hr2di_watch_work(t->watch, 8 * (1 + t->bands / 4))) break;
     if (!takes(p, k)) continue;
     const hr2d_pair pair = hr2di_store_link(store, k).pair;
-    if (p->first) raise_most(t, pair.first, pair.second);
-    if (p->second) raise_most(t, pair.second, pair.first);
+    if (p->first) raise_max(t, pair.first, pair.second);
+    if (p->second) raise_max(t, pair.second, pair.first);
   }
   t->failed = hr2di_share_combine(t->links->share, hr2di_transport_status(t), HR2D_COMBINE_MOST,
-                                  most, values);
-  const double weight = hr2di_symmetry_most(&t->hierarchy->scene->symmetry);
+                                  max, values);
+  const double weight = hr2di_symmetry_max(&t->hierarchy->scene->symmetry);
   const double root = SLACK * weight * sqrt((double)(2 * t->order - 1));
   for (size_t k = 0; k < values; k++)
-    most[k] = hr2di_bin_scale(root * t->hierarchy->element[k / t->bands].length * most[k]);
+    max[k] = hr2di_bin_scale(root * t->hierarchy->element[k / t->bands].length * max[k]);
 }
 
 static void add(const hr2di_transport *t, uint32_t to, const double *term) {
   hr2di_bin *bin = t->shared->bin + to * t->width;
-  const double *scale = t->shared->most + to * t->bands;
+  const double *scale = t->shared->max + to * t->bands;
   for (size_t l = 0; l < t->order; l++, bin += t->bands, term += t->bands)
     for (size_t b = 0; b < t->bands; b++) hr2di_bin_add(&bin[b], scale[b], term[b]);
 }
 
 static void send_area(const hr2di_transport *t, double area, uint32_t to, uint32_t from) {
   hr2di_bin *bin = t->shared->bin + to * t->bands;
-  const double *scale = t->shared->most + to * t->bands, *up = t->up + from * t->bands;
+  const double *scale = t->shared->max + to * t->bands, *up = t->up + from * t->bands;
   for (size_t b = 0; b < t->bands; b++) hr2di_bin_add(&bin[b], scale[b], area * up[b]);
 }
 

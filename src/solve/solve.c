@@ -9,7 +9,7 @@
 #include "base/neumaier-sum.h"
 #include "base/sized-struct.h"
 #include "hierarchy/hierarchy-impl.h"
-#include "scene/settled.h"
+#include "scene/frozen-temperatures.h"
 #include "solution/solution-impl.h"
 #include "solve/closure.h"
 #include "solve/equation.h"
@@ -135,12 +135,12 @@ static hr2d_status set_powers(hr2di_equation *s, hr2d_solution *made) {
 /* Whether two fields differ by roundings alone. */
 static int is_same(const double *one, const double *other, size_t count, size_t bands,
                    size_t band) {
-  double largest = 0, apart = 0;
+  double largest = 0, difference = 0;
   for (size_t k = band; k < count; k += bands) {
     largest = fmax(largest, fabs(one[k]));
-    apart = fmax(apart, fabs(one[k] - other[k]));
+    difference = fmax(difference, fabs(one[k] - other[k]));
   }
-  return apart <= SAME * largest;
+  return difference <= SAME * largest;
 }
 
 /* A warm start that solves this equation already keeps its bits: so a state that is gone on
@@ -172,7 +172,7 @@ static hr2d_status make_solution(hr2di_equation *s, hr2d_solution **solution) {
                           .order = t->order,
                           .bands = t->bands,
                           .work = {.gathers = t->sweeps,
-                                   .iterations = s->looks ? s->looks - 1 : 0,
+                                   .iterations = s->residuals ? s->residuals - 1 : 0,
                                    .row_sums = s->row_sums,
                                    .background_rows = t->sky ? s->row_sums : 0,
                                    .kernels = s->kernels,
@@ -194,8 +194,8 @@ static hr2d_status make_solution(hr2di_equation *s, hr2d_solution **solution) {
   finite &= take_raised(s, s->irradiance, t->up);
   made->irradiance = t->up;
   t->up = NULL;
-  hr2di_ties_spread(&t->ties, t->order, t->bands, made->value);
-  hr2di_ties_spread(&t->ties, t->order, t->bands, made->irradiance);
+  hr2di_image_map_spread(&t->image_map, t->order, t->bands, made->value);
+  hr2di_image_map_spread(&t->image_map, t->order, t->bands, made->irradiance);
   if (finite && !t->failed) {
     keep_start(s, made);
     *solution = made;
@@ -235,7 +235,7 @@ static hr2d_status find(hr2di_equation *eq) {
 
 static void tell_refusal(const hr2di_equation *eq, hr2d_status status) {
   if (status && eq->watch.refused && status == eq->watch.status)
-    hr2di_message_fail(&eq->links->message, status, "%s: %s", eq->watch.told.phase,
+    hr2di_message_fail(&eq->links->message, status, "%s: %s", eq->watch.report.phase,
                        hr2d_strerror(status));
 }
 
@@ -253,27 +253,27 @@ static hr2d_status solve(hr2d_linkset *links, const hr2di_equation_how *how,
   return status;
 }
 
-/* Finds temperatures first; on success the solution owns the settled scene. */
+/* Finds temperatures first; on success the solution owns the scene of frozen temperatures. */
 static hr2d_status solve_heat(hr2d_linkset *links, const hr2d_solve_options *options,
-                              hr2d_scene *settled, hr2d_solution **solution) {
+                              hr2d_scene *frozen, hr2d_solution **solution) {
   hr2di_heat_balance h;
-  hr2d_status status = hr2di_heat_balance_init(&h, settled, links, options);
+  hr2d_status status = hr2di_heat_balance_init(&h, frozen, links, options);
   if (!status) status = hr2di_heat_balance_settle(&h);
   if (!status) status = hr2di_heat_scene_check(&h);
   if (!status) status = hr2di_heat_balance_source(&h, options);
   if (!status) status = find(&h.eq);
   if (!status) status = make_solution(&h.eq, solution);
   tell_refusal(&h.eq, status);
-  if (!status) (*solution)->own_scene = settled;
+  if (!status) (*solution)->own_scene = frozen;
   hr2di_heat_balance_clear(&h);
   return status;
 }
 
 static hr2d_status guess(hr2d_linkset *links, const hr2d_solve_options *options,
-                         hr2d_scene **settled) {
+                         hr2d_scene **frozen) {
   const hr2d_status status =
       hr2di_heat_scene_create(links->hierarchy->scene, options->start, options->progress,
-                              options->progress_ctx, settled);
+                              options->progress_ctx, frozen);
   if (status)
     hr2di_message_fail(&links->message, status, "%s", hr2di_heat_scene_failure(status));
   return status;
@@ -300,22 +300,21 @@ static hr2d_status run(hr2d_linkset *links, const hr2di_equation_how *how,
   hr2d_status status = check_options(links, &options, field != NULL);
   if (status) return status;
   const hr2d_scene *scene = links->hierarchy->scene;
-  hr2d_scene *settled = NULL;
+  hr2d_scene *frozen = NULL;
   hr2di_watch watch;
   hr2di_share_begin(links->share);
   hr2di_scene_watch(scene, &watch, options.progress, options.progress_ctx, "rows");
-  if (hr2di_scene_is_unsettled(scene)) status = guess(links, &options, &settled);
-  if (!status && !field)
-    status = hr2di_existence_check(links, settled ? settled : scene, &watch);
+  if (hr2di_scene_is_unsettled(scene)) status = guess(links, &options, &frozen);
+  if (!status && !field) status = hr2di_existence_check(links, frozen ? frozen : scene, &watch);
   links->solving = 1;
   atomic_fetch_add(&links->hierarchy->readers, 1);
   hr2d_solution *made = NULL;
   if (!status)
-    status = settled ? solve_heat(links, &options, settled, &made)
-                     : solve(links, how, &options, field, &made);
+    status = frozen ? solve_heat(links, &options, frozen, &made)
+                    : solve(links, how, &options, field, &made);
   atomic_fetch_sub(&links->hierarchy->readers, 1);
   links->solving = 0;
-  if (status) hr2di_settled_destroy(settled);
+  if (status) hr2di_frozen_destroy(frozen);
   if (status == HR2D_ENOMEM)
     hr2di_message_fail(&links->message, status, "out of memory for the solve");
   if (links->share) status = agree(links, status, &made);

@@ -29,13 +29,13 @@ size_t hr2di_transport_slices(const hr2d_linkset *links, size_t order) {
   const size_t elements = links->hierarchy->elements;
   const uint64_t products = 2 * links->store.count * order; /* per coefficient and band */
   if (links->share) return 1;
-  uint64_t slices = 1 + hr2di_store_chunks(&links->store) / SLICE_BLOCKS, most = MOST_SLICES;
+  uint64_t slices = 1 + hr2di_store_chunks(&links->store) / SLICE_BLOCKS, max = MOST_SLICES;
   if (order > 1) {
     slices = products / (SLICE_PRODUCTS * (uint64_t)elements);
-    most = 1 + products * order / HR2DI_CHOICE_TEAM_PRODUCTS;
-    if (most > MOST_BLOCK_SLICES) most = MOST_BLOCK_SLICES;
+    max = 1 + products * order / HR2DI_CHOICE_TEAM_PRODUCTS;
+    if (max > MOST_BLOCK_SLICES) max = MOST_BLOCK_SLICES;
   }
-  return slices < 1 ? 1 : (size_t)(slices < most ? slices : most);
+  return slices < 1 ? 1 : (size_t)(slices < max ? slices : max);
 }
 
 hr2d_status hr2di_transport_init(hr2di_transport *t, const hr2d_linkset *links, size_t order,
@@ -68,8 +68,8 @@ hr2d_status hr2di_transport_init(hr2di_transport *t, const hr2d_linkset *links, 
   for (size_t e = 0; e < t->elements; e++)
     if (!h->element[e].child) t->leaf[t->leaves++] = (uint32_t)e;
   if (links->share && hr2di_shared_gather_init(t)) return HR2D_ENOMEM;
-  const hr2d_status tied = hr2di_ties_init(&t->ties, h, &t->alloc, watch);
-  return tied ? tied : hr2di_transport_lead(t, &links->blocks);
+  const hr2d_status mapped = hr2di_image_map_init(&t->image_map, h, &t->alloc, watch);
+  return mapped ? mapped : hr2di_transport_lead(t, &links->blocks);
 }
 
 hr2d_status hr2di_transport_lead(hr2di_transport *t, const hr2di_link_blocks *blocks) {
@@ -89,7 +89,7 @@ hr2d_status hr2di_transport_lead(hr2di_transport *t, const hr2di_link_blocks *bl
 void hr2di_transport_clear(hr2di_transport *t) {
   hr2di_shared_gather_clear(t);
   hr2di_push_pull_clear(&t->trees);
-  hr2di_ties_clear(&t->ties, &t->alloc);
+  hr2di_image_map_clear(&t->image_map, &t->alloc);
   hr2di_cluster_room_clear(&t->room);
   hr2di_alloc_free(&t->alloc, t->leading);
   hr2di_alloc_free(&t->alloc, t->leaf);
@@ -123,7 +123,7 @@ static void pull(hr2di_transport *t, const double *spread, const double *leaf_fi
   for (size_t k = 0; k < t->leaves && !declare(t, k); k++)
     memcpy(t->up + t->leaf[k] * t->width, leaf_field + k * t->width, t->width * sizeof(double));
   if (!has_failed(t)) hr2di_push_pull_up(&t->trees, spread, t->up);
-  hr2di_ties_spread(&t->ties, t->order, t->bands, t->up);
+  hr2di_image_map_spread(&t->image_map, t->order, t->bands, t->up);
   has_failed(t);
 }
 
@@ -199,11 +199,11 @@ static void gather_areas(const hr2di_transport *t, size_t slice, double *down,
 /* Above order 1. */
 static void gather_blocks(const hr2di_transport *t, hr2di_transport_part part, size_t slice,
                           double *down, hr2di_watch *watch) {
-  const uint64_t links = t->links->store.count, most = HR2DI_READ_LINKS;
+  const uint64_t links = t->links->store.count, max = HR2DI_READ_LINKS;
   const uint64_t from = slice * links / t->slices, to = (slice + 1) * links / t->slices;
-  const uint64_t units = most / 32 * (1 + t->order * t->width / 8);
-  for (uint64_t k = from; k < to && !hr2di_watch_work(watch, units); k += most)
-    gather_orders(t, part, k, (size_t)(to - k < most ? to - k : most), down);
+  const uint64_t units = max / 32 * (1 + t->order * t->width / 8);
+  for (uint64_t k = from; k < to && !hr2di_watch_work(watch, units); k += max)
+    gather_orders(t, part, k, (size_t)(to - k < max ? to - k : max), down);
 }
 
 static void gather_slice(const hr2di_transport *t, hr2di_transport_part part, size_t slice,
@@ -293,7 +293,7 @@ static void gather(hr2di_transport *t, hr2di_transport_part part) {
     gather_slices(t, part);
   if (has_failed(t)) return;
   if (t->roots->clusters && part == HR2DI_ALL_LINKS) gather_clusters(t);
-  hr2di_ties_fold(&t->ties, t->order, t->bands, t->down);
+  hr2di_image_map_fold(&t->image_map, t->order, t->bands, t->down);
   if (!has_failed(t)) divide(t);
 }
 
@@ -320,7 +320,7 @@ void hr2di_transport_link_rows(hr2di_transport *t, int sends, double *factor) {
     gather(t, HR2DI_ALL_LINKS);
   } else if (t->shared) {
     hr2di_shared_gather(t, HR2DI_ALL_LINKS, 1);
-    hr2di_ties_fold(&t->ties, t->order, t->bands, t->down);
+    hr2di_image_map_fold(&t->image_map, t->order, t->bands, t->down);
     divide(t);
   } else {
     memset(t->down, 0, t->elements * t->width * sizeof *t->down);
@@ -328,7 +328,7 @@ void hr2di_transport_link_rows(hr2di_transport *t, int sends, double *factor) {
       const hr2d_link *link = hr2di_store_at(store, k);
       t->down[link->pair.second * t->width] += link->exchange_area;
     }
-    hr2di_ties_fold(&t->ties, t->order, t->bands, t->down);
+    hr2di_image_map_fold(&t->image_map, t->order, t->bands, t->down);
     divide(t);
   }
   for (size_t k = 0; k < t->elements; k++) factor[k] = t->down[k * t->width];

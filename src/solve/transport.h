@@ -8,7 +8,7 @@
 
 #include "hierarchy/push-pull.h"
 #include "links/linkset-impl.h"
-#include "solve/image-ties.h"
+#include "solve/image-map.h"
 
 typedef struct hr2di_transport {
   const hr2d_linkset *links;
@@ -16,10 +16,11 @@ typedef struct hr2di_transport {
   hr2di_link_blocks blocks; /* of the links, above order 1; */
   void *leading; /* their values, where the operator has fewer than their leading part */
   const hr2d_hierarchy *hierarchy;
-  const hr2d_scene *scene; /* whose E and ρ count: that of the hierarchy, or a settled one */
+  const hr2d_scene
+      *scene; /* whose E and ρ count: that of the hierarchy, or one of frozen temperatures */
   hr2d_allocator alloc;
   hr2di_push_pull trees;
-  hr2di_ties ties;
+  hr2di_image_map image_map;
   size_t order, bands, width; /* width is order × bands */
   size_t elements, leaves;
   uint32_t *leaf; /* the element of each leaf */

@@ -9,7 +9,7 @@
 #include "state/scene-format.h"
 #include "state/state-impl.h"
 
-static int is_alike(const hr2d_scene *scene, size_t patch) {
+static int has_same_light(const hr2d_scene *scene, size_t patch) {
   return patch > 0 && scene->patch[patch].light == scene->patch[patch - 1].light;
 }
 
@@ -35,7 +35,7 @@ static uint64_t count_bytes(const hr2d_scene *scene) {
   for (size_t k = 0; k < hr2di_scene_cell(scene); k++) {
     const hr2di_patch *p = &scene->patch[k];
     bytes += 4 + 4 * 8 + 4 + strlen(p->name);
-    if (!is_alike(scene, k)) bytes += 8 * (5 + values_of(p->light));
+    if (!has_same_light(scene, k)) bytes += 8 * (5 + values_of(p->light));
   }
   return bytes;
 }
@@ -67,9 +67,9 @@ static void put_segment(hr2di_writer *w, hr2d_segment s) {
 }
 
 /* As it was drawn: commit may have moved it by periods. */
-static void put_patch(hr2di_writer *w, const hr2d_scene *scene, size_t patch, int alike) {
-  hr2di_writer_half(w, (uint32_t)alike);
-  if (!alike) put_light(w, scene->patch[patch].light);
+static void put_patch(hr2di_writer *w, const hr2d_scene *scene, size_t patch, int same_light) {
+  hr2di_writer_half(w, (uint32_t)same_light);
+  if (!same_light) put_light(w, scene->patch[patch].light);
   put_segment(w, hr2d_scene_segment(scene, patch));
   put_name(w, scene->patch[patch].name);
 }
@@ -138,11 +138,11 @@ hr2d_status hr2d_state_write_scene(const hr2d_scene *scene, hr2d_write_fn write,
   put_lights(&w, scene);
   if (has_symmetry(scene)) put_symmetry(&w, &scene->symmetry);
   for (size_t k = 0; k < patches && !w.status; k++) {
-    const int alike = is_alike(scene, k);
-    put_patch(&w, scene, k, alike);
+    const int same_light = has_same_light(scene, k);
+    put_patch(&w, scene, k, same_light);
     if (!w.status)
-      w.status =
-          hr2di_watch_work(&watch, 1 + (alike ? 0 : values_of(scene->patch[k].light) / 16));
+      w.status = hr2di_watch_work(&watch,
+                                  1 + (same_light ? 0 : values_of(scene->patch[k].light) / 16));
   }
   hr2di_writer_word(&w, hr2di_state_scene(scene, &watch));
   if (!w.status) w.status = watch.status;

@@ -7,7 +7,7 @@
 #include "base/alloc.h"
 #include "hierarchy/hierarchy-impl.h"
 #include "links/linkset-impl.h"
-#include "scene/settled.h"
+#include "scene/frozen-temperatures.h"
 #include "solution/solution-impl.h"
 #include "state/byte-stream.h"
 #include "state/state-impl.h"
@@ -130,11 +130,10 @@ static hr2d_status read_elements(loading *l) {
 static int is_link(const hr2d_hierarchy *h, hr2d_pair pair, int directed, double area) {
   if (pair.first >= h->elements || pair.second >= h->elements) return 0;
   const hr2d_element *i = &h->element[pair.first], *j = &h->element[pair.second];
-  const double most = 1.01 * fmin(i->length, j->length),
+  const double max = 1.01 * fmin(i->length, j->length),
                weight =
                    hr2di_symmetry_weight(&h->scene->symmetry, i->patch, j->patch, directed);
-  return i->patch != j->patch && area >= fmin(weight, 0) * most &&
-         area <= fmax(weight, 1) * most;
+  return i->patch != j->patch && area >= fmin(weight, 0) * max && area <= fmax(weight, 1) * max;
 }
 
 static hr2d_status read_links(loading *l) {
@@ -213,7 +212,7 @@ static hr2d_status read_solution(loading *l, const hr2d_solve_work *work) {
 static hr2d_status read_temperatures(loading *l) {
   const hr2d_scene *scene = l->links->hierarchy->scene;
   if (!hr2di_scene_is_unsettled(scene)) return HR2D_OK;
-  hr2d_status status = hr2di_settled_create(scene, &l->solution->own_scene);
+  hr2d_status status = hr2di_frozen_create(scene, &l->solution->own_scene);
   if (status)
     return hr2di_message_fail(&l->links->message, status, "out of memory for the temperatures");
   for (size_t k = 0; k < hr2di_scene_cell(scene) && !status; k++) {
@@ -221,7 +220,7 @@ static hr2d_status read_temperatures(loading *l) {
     double radiance;
     status = read_doubles(l, &radiance, 1);
     if (!status && radiance < 0) status = damaged(l, "a temperature");
-    if (!status) status = hr2di_settled_set(l->solution->own_scene, k, radiance);
+    if (!status) status = hr2di_frozen_set(l->solution->own_scene, k, radiance);
   }
   return status;
 }

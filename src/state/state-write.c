@@ -5,7 +5,7 @@
 #include "hierarchy/hierarchy-impl.h"
 #include "links/linkset-impl.h"
 #include "scene/emissivity.h"
-#include "scene/settled.h"
+#include "scene/frozen-temperatures.h"
 #include "solution/solution-impl.h"
 #include "state/byte-stream.h"
 #include "state/state-impl.h"

@@ -10,18 +10,18 @@
 #include "triangulation/in-circle.h"
 
 void hr2di_cavity_clear(const hr2di_mesh *m, hr2di_cavity *c) {
-  hr2di_alloc_free(m->alloc, c->rim[0]);
-  hr2di_alloc_free(m->alloc, c->rim[1]);
+  hr2di_alloc_free(m->alloc, c->edges[0]);
+  hr2di_alloc_free(m->alloc, c->edges[1]);
   hr2di_alloc_free(m->alloc, c->triangle);
   hr2di_alloc_free(m->alloc, c->half_edge);
 }
 
 static hr2d_status add_rim(const hr2di_mesh *m, hr2di_cavity *c, int side, uint32_t vertex,
                            int32_t within) {
-  if (hr2di_alloc_reserve(m->alloc, &c->rim[side], &c->room[side], c->count[side] + 1,
-                          sizeof *c->rim[side]))
+  if (hr2di_alloc_reserve(m->alloc, &c->edges[side], &c->room[side], c->count[side] + 1,
+                          sizeof *c->edges[side]))
     return HR2D_ENOMEM;
-  c->rim[side][c->count[side]++] = (hr2di_rim){.vertex = vertex, .within = within};
+  c->edges[side][c->count[side]++] = (hr2di_cavity_edge){.vertex = vertex, .within = within};
   return HR2D_OK;
 }
 
@@ -64,22 +64,22 @@ hr2d_status hr2di_cavity_go_on(const hr2di_mesh *m, hr2di_cavity *c, int32_t *h,
 
 /* Finds what is outside of each rim.  An edge with both sides in the cavity is found by numbers
    that are left in the triangles that go. */
-static void look_outside(hr2di_mesh *m, hr2di_rim *rim, size_t count) {
+static void view_outside(hr2di_mesh *m, hr2di_cavity_edge *edges, size_t count) {
   for (size_t k = 1; k < count; k++) {
-    rim[k].outside = hr2di_mesh_across(m, rim[k].within);
-    rim[k].pair = 0;
+    edges[k].outside = hr2di_mesh_across(m, edges[k].within);
+    edges[k].pair = 0;
   }
   for (size_t k = 1; k < count; k++)
-    m->triangle[rim[k].within >> 2].across[rim[k].within & 3] = ~(int32_t)k;
+    m->triangle[edges[k].within >> 2].across[edges[k].within & 3] = ~(int32_t)k;
   for (size_t k = 1; k < count; k++) {
-    if (rim[k].outside < 0) continue;
-    const int32_t mark = hr2di_mesh_across(m, rim[k].outside);
-    if (mark < 0) rim[k].pair = 1 + (uint32_t)((size_t)~mark < k ? (size_t)~mark : k);
+    if (edges[k].outside < 0) continue;
+    const int32_t mark = hr2di_mesh_across(m, edges[k].outside);
+    if (mark < 0) edges[k].pair = 1 + (uint32_t)((size_t)~mark < k ? (size_t)~mark : k);
   }
 }
 
 /* Hooks a new half-edge to what was outside; of a pair, the second to the first. */
-static void hook_rim(hr2di_mesh *m, int32_t *first_of, const hr2di_rim *r, int32_t h) {
+static void hook_rim(hr2di_mesh *m, int32_t *first_of, const hr2di_cavity_edge *r, int32_t h) {
   if (r->pair == 0) {
     hr2di_mesh_hook(m, h, r->outside);
     return;
@@ -92,13 +92,13 @@ static void hook_rim(hr2di_mesh *m, int32_t *first_of, const hr2di_rim *r, int32
 /* Cuts ears off a chain; triangles are taken from the end of the list of the cavity.  Returns
    the half-edge along the line. */
 static int32_t fill(hr2di_mesh *m, hr2di_cavity *c, int side, int32_t *first_of) {
-  hr2di_rim *rim = c->rim[side];
+  hr2di_cavity_edge *edges = c->edges[side];
   size_t top = 0;
   int32_t base = -1;
   for (size_t k = 0; k < c->count[side]; k++) {
-    rim[top++] = rim[k];
+    edges[top++] = edges[k];
     while (top > 2) {
-      const hr2di_rim u = rim[top - 3], v = rim[top - 2], w = rim[top - 1];
+      const hr2di_cavity_edge u = edges[top - 3], v = edges[top - 2], w = edges[top - 1];
       const int sign = hr2di_orient_sign(m->at[u.vertex], m->at[v.vertex], m->at[w.vertex]);
       if (side ? sign <= 0 : sign >= 0) break;
       const int32_t t = c->triangle[--c->triangles];
@@ -109,7 +109,7 @@ static int32_t fill(hr2di_mesh *m, hr2di_cavity *c, int side, int32_t *first_of)
       hook_rim(m, first_of, &v, side ? 4 * t : 4 * t + 1);
       hook_rim(m, first_of, &w, side ? 4 * t + 1 : 4 * t);
       base = 4 * t + 2;
-      rim[--top - 1] = (hr2di_rim){.vertex = w.vertex, .outside = base};
+      edges[--top - 1] = (hr2di_cavity_edge){.vertex = w.vertex, .outside = base};
     }
   }
   return base;
@@ -128,7 +128,8 @@ hr2d_status hr2di_cavity_close(hr2di_mesh *m, hr2di_cavity *c, int32_t h, int32_
     for (int e = 0; e < 3 && !status; e++)
       status = hr2di_cavity_look(m, c, 4 * c->triangle[k] + e);
   int32_t base[2] = {-1, -1};
-  for (int side = 0; side < 2 && !status; side++) look_outside(m, c->rim[side], c->count[side]);
+  for (int side = 0; side < 2 && !status; side++)
+    view_outside(m, c->edges[side], c->count[side]);
   for (int side = 0; side < 2 && !status; side++) {
     for (size_t k = 0; k < rims; k++) first_of[k] = -1;
     base[side] = fill(m, c, side, first_of);

@@ -8,17 +8,17 @@
 
 /* A vertex on the border of a cavity, and the edge to it from the vertex before it on its
    chain. */
-typedef struct hr2di_rim {
+typedef struct hr2di_cavity_edge {
   uint32_t vertex;
   int32_t within;  /* the half-edge in the cavity */
   int32_t outside; /* what the triangle that will have this edge is to be hooked to */
   uint32_t pair;   /* if both sides of the edge are in the cavity: 1 + the first rim of it */
-} hr2di_rim;
+} hr2di_cavity_edge;
 
 /* Chains of the vertices on the left and on the right of the line, each from its start on.  The
    arrays are used again by the next cavity. */
 typedef struct hr2di_cavity {
-  hr2di_rim *rim[2];
+  hr2di_cavity_edge *edges[2];
   size_t count[2], room[2];
   int32_t *triangle; /* that the line crosses; then those that were flipped */
   size_t triangles, triangle_room;

@@ -102,8 +102,8 @@ static hr2d_status insert(hr2di_mesh *m, walk *w, uint32_t v) {
 }
 
 hr2d_status hr2di_delaunay_init(hr2di_mesh *m) {
-  const size_t points = m->vertices - 4, most = 2 * points + 2;
-  m->triangle = hr2di_alloc(m->alloc, most, sizeof *m->triangle);
+  const size_t points = m->vertices - 4, max = 2 * points + 2;
+  m->triangle = hr2di_alloc(m->alloc, max, sizeof *m->triangle);
   if (!m->triangle) return HR2D_ENOMEM;
   walk w = {.random = 1};
   hr2d_status status = hr2di_mesh_start(m);

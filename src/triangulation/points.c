@@ -7,8 +7,8 @@
 #include "base/alloc.h"
 #include "base/sort.h"
 #include "geometry/vector.h"
-#include "triangulation/alike.h"
 #include "triangulation/hilbert.h"
+#include "triangulation/merge-vertices.h"
 
 /* An end of a wall. */
 typedef struct tip {
@@ -55,20 +55,20 @@ static hr2d_status place_tips(hr2di_mesh *m, tip *tips) {
 }
 
 /* Numbers the vertices in the order of the curve. */
-static hr2d_status number(hr2di_mesh *m, hr2di_alike *alike, const tip *tips) {
+static hr2d_status number(hr2di_mesh *m, hr2di_merge_vertices *merged, const tip *tips) {
   hr2d_status status = HR2D_OK;
   for (size_t k = 0, end; k < 2 * m->walls && !status; k = end) {
     double reach = INFINITY;
     status = hr2di_watch_work(m->watch, 2);
     for (end = k; end < 2 * m->walls && hr2di_point_same(tips[end].at, tips[k].at); end++)
       reach = fmin(reach, hr2di_mesh_reach(m, tips[end].end / 2));
-    if (!status) status = hr2di_alike_add(alike, tips[k].at, reach);
+    if (!status) status = hr2di_merge_vertices_add(merged, tips[k].at, reach);
     for (size_t i = k; i < end && !status; i++) {
       hr2di_wall_edge *e = &m->piece[tips[i].end / 2].edge;
-      *(tips[i].end % 2 ? &e->to : &e->from) = alike->found;
+      *(tips[i].end % 2 ? &e->to : &e->from) = merged->found;
     }
   }
-  m->vertices = alike->count + 4;
+  m->vertices = merged->count + 4;
   return status;
 }
 
@@ -81,10 +81,11 @@ hr2d_status hr2di_points_init(hr2di_mesh *m) {
   hr2d_status status = tips && m->at && m->piece ? HR2D_OK : HR2D_ENOMEM;
   if (!status) status = place_tips(m, tips);
   if (!status) status = hr2di_sort(tips, count, sizeof *tips, by_place, m->watch);
-  hr2di_alike alike = {.at = m->at, .watch = m->watch};
-  if (!status) status = hr2di_alike_init(&alike, m->alloc, count, fmax(m->tolerance, m->unit));
-  if (!status) status = number(m, &alike, tips);
-  hr2di_alike_clear(&alike, m->alloc);
+  hr2di_merge_vertices merged = {.at = m->at, .watch = m->watch};
+  if (!status)
+    status = hr2di_merge_vertices_init(&merged, m->alloc, count, fmax(m->tolerance, m->unit));
+  if (!status) status = number(m, &merged, tips);
+  hr2di_merge_vertices_clear(&merged, m->alloc);
   hr2di_alloc_free(m->alloc, tips);
   return status;
 }

@@ -3,13 +3,13 @@
 #include "triangulation/triangulation.h"
 
 #include "base/alloc.h"
-#include "triangulation/compact.h"
+#include "triangulation/check-crossings.h"
 #include "triangulation/constraints.h"
 #include "triangulation/delaunay.h"
-#include "triangulation/feet.h"
+#include "triangulation/freeze.h"
 #include "triangulation/mesh.h"
-#include "triangulation/passes.h"
 #include "triangulation/points.h"
+#include "triangulation/snap-feet.h"
 
 /* Half-edges are numbered below 2^31: 4 for each of two triangles per end. */
 #define MOST_WALLS (INT32_MAX / 32)
@@ -31,9 +31,9 @@ hr2d_status hr2di_triangulation_init(hr2di_triangulation *t, const hr2d_allocato
   if (!status) status = hr2di_delaunay_init(&m);
   if (!status) status = hr2di_mesh_find_out(&m);
   if (!status) status = hr2di_constraints_insert(&m, conflict);
-  if (!status) status = hr2di_feet_join(&m);
+  if (!status) status = hr2di_feet_snap(&m);
   if (!status) status = hr2di_passes_check(&m, conflict);
-  if (!status) status = hr2di_compact(&m, t, conflict);
+  if (!status) status = hr2di_freeze(&m, t, conflict);
   hr2di_alloc_free(m.alloc, m.at);
   hr2di_alloc_free(m.alloc, m.triangle);
   hr2di_alloc_free(m.alloc, m.out);

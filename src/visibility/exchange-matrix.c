@@ -8,12 +8,12 @@
 #include "base/sized-struct.h"
 #include "scene/scene-impl.h"
 #include "visibility/image-rows.h"
-#include "visibility/row-maker.h"
+#include "visibility/row-assembly.h"
 
 enum { TILE = 8 };
 
 typedef struct matrix {
-  hr2di_row_maker maker;
+  hr2di_row_assembly maker;
   size_t n;
   double *area;
   double unit; /* of the scene's coordinates */
@@ -69,8 +69,8 @@ static hr2d_status put_images(const matrix *m, const hr2d_scene *scene,
   return status;
 }
 
-static void describe(void *of, hr2d_progress *told) {
-  told->fraction = hr2di_row_maker_fraction(of);
+static void describe(void *of, hr2d_progress *report) {
+  report->fraction = hr2di_row_assembly_fraction(of);
 }
 
 hr2d_status hr2d_exchange_matrix(const hr2d_scene *scene, const hr2d_matrix_options *options,
@@ -89,13 +89,13 @@ hr2d_status hr2d_exchange_matrix(const hr2d_scene *scene, const hr2d_matrix_opti
     status = put_images(&m, scene, &o, &watch, counts);
     return status ? status : hr2di_watch_ask(&watch);
   }
-  status = hr2di_row_maker_init(&m.maker, scene, o.threads, 0, &watch);
+  status = hr2di_row_assembly_init(&m.maker, scene, o.threads, 0, &watch);
   hr2di_watch_describe(&watch, describe, &m.maker);
-  if (!status) status = hr2di_row_maker_run(&m.maker, 0, m.maker.tasks, put_row, &m);
+  if (!status) status = hr2di_row_assembly_run(&m.maker, 0, m.maker.tasks, put_row, &m);
   if (!status) status = mirror(&m, &watch, &sum);
   if (!status) status = hr2di_watch_ask(&watch);
-  sum.visibility_tests = hr2di_row_maker_steps(&m.maker);
+  sum.visibility_tests = hr2di_row_assembly_steps(&m.maker);
   if (!status && counts) *counts = sum;
-  hr2di_row_maker_clear(&m.maker);
+  hr2di_row_assembly_clear(&m.maker);
   return status;
 }

@@ -11,7 +11,7 @@
 #include "base/sized-struct.h"
 #include "scene/scene-impl.h"
 #include "visibility/image-rows.h"
-#include "visibility/row-maker.h"
+#include "visibility/row-assembly.h"
 
 /* Entries of the first chunk of a thread, and of the largest; each is twice the one before. */
 enum { CHUNK = 1 << 12, LARGEST_CHUNK = 1 << 19, MOST_THREADS = 256 };
@@ -39,7 +39,7 @@ typedef struct half_row {
 } half_row;
 
 typedef struct builder {
-  hr2di_row_maker maker;
+  hr2di_row_assembly maker;
   hr2di_watch *watch;
   const hr2d_allocator *alloc;
   hr2d_exchange_rows *rows;
@@ -195,24 +195,24 @@ static hr2d_status reserve_rows(builder *b) {
   return b->rows->start && b->half ? HR2D_OK : HR2D_ENOMEM;
 }
 
-static void describe(void *of, hr2d_progress *told) {
-  told->fraction = hr2di_row_maker_fraction(of);
+static void describe(void *of, hr2d_progress *report) {
+  report->fraction = hr2di_row_assembly_fraction(of);
 }
 
 static hr2d_status make_halves(builder *b, const hr2d_scene *scene, unsigned threads) {
-  hr2d_status status = hr2di_row_maker_init(&b->maker, scene, threads, 0, b->watch);
+  hr2d_status status = hr2di_row_assembly_init(&b->maker, scene, threads, 0, b->watch);
   hr2di_watch_describe(b->watch, describe, &b->maker);
   if (!status) status = reserve_rows(b);
-  if (!status) status = hr2di_row_maker_run(&b->maker, 0, b->maker.tasks, keep_row, b);
-  b->counts.visibility_tests = hr2di_row_maker_steps(&b->maker);
+  if (!status) status = hr2di_row_assembly_run(&b->maker, 0, b->maker.tasks, keep_row, b);
+  b->counts.visibility_tests = hr2di_row_assembly_steps(&b->maker);
   hr2di_watch_describe(b->watch, NULL, NULL);
-  hr2di_row_maker_clear(&b->maker);
+  hr2di_row_assembly_clear(&b->maker);
   return status;
 }
 
 static hr2d_status join_halves(builder *b) {
   hr2d_status status = count_entries(b);
-  b->watch->told.fraction = 1;
+  b->watch->report.fraction = 1;
   if (!status) status = reserve_entries(b);
   if (!status) status = scatter(b);
   if (!status) status = merge_all(b);

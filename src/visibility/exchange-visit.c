@@ -8,7 +8,7 @@
 #include "base/sized-struct.h"
 #include "scene/scene-impl.h"
 #include "visibility/image-rows.h"
-#include "visibility/row-maker.h"
+#include "visibility/row-assembly.h"
 
 /* Rows that a thread makes before they are shown have some 3 MB: more than threads take to
    start, and to wait for the last one. */
@@ -29,7 +29,7 @@ typedef struct store {
 } store;
 
 typedef struct visit {
-  hr2di_row_maker maker;
+  hr2di_row_assembly maker;
   const hr2d_allocator *alloc;
   hr2di_watch *watch;
   double unit;
@@ -72,7 +72,7 @@ static hr2d_status show_row(visit *v, uint32_t patch) {
 }
 
 /* The end of the tasks of a round of so many rows. */
-static size_t end_of_round(const hr2di_row_maker *m, size_t first, size_t rows) {
+static size_t end_of_round(const hr2di_row_assembly *m, size_t first, size_t rows) {
   size_t last = first;
   for (size_t made = 0; last < m->tasks && made < rows; last++)
     made += m->task[last].last - m->task[last].first;
@@ -88,13 +88,13 @@ static size_t next_rows(const visit *v, size_t rows) {
 }
 
 static hr2d_status show_all(visit *v) {
-  const hr2di_row_maker *m = &v->maker;
+  const hr2di_row_assembly *m = &v->maker;
   hr2d_status status = HR2D_OK;
   size_t rows = LEAST_ROWS * m->workers;
   for (size_t first = 0, last; first < m->tasks && !status; first = last) {
     last = end_of_round(m, first, rows);
     for (size_t k = 0; k < m->workers; k++) v->store[k].used = 0;
-    status = hr2di_row_maker_run(&v->maker, first, last, keep_row, v);
+    status = hr2di_row_assembly_run(&v->maker, first, last, keep_row, v);
     rows = next_rows(v, rows);
     for (size_t task = first; task < last && !status; task++)
       for (uint32_t k = m->task[task].first; k < m->task[task].last && !status; k++)
@@ -102,12 +102,12 @@ static hr2d_status show_all(visit *v) {
   }
   v->counts.exchange_areas /= 2;
   v->counts.partial_pairs /= 2;
-  v->counts.visibility_tests = hr2di_row_maker_steps(m);
+  v->counts.visibility_tests = hr2di_row_assembly_steps(m);
   return status;
 }
 
-static void describe(void *of, hr2d_progress *told) {
-  told->fraction = hr2di_row_maker_fraction(of);
+static void describe(void *of, hr2d_progress *report) {
+  report->fraction = hr2di_row_assembly_fraction(of);
 }
 
 static hr2d_status run(visit *v, size_t patches) {
@@ -162,9 +162,9 @@ hr2d_status hr2d_exchange_rows_visit(const hr2d_scene *scene,
              .ctx = ctx};
   hr2di_image_rows_complete(&o, hr2di_scene_cell(scene));
   if (scene->symmetry.motion) return visit_images(scene, &o, &watch, show, ctx, counts);
-  status = hr2di_row_maker_init(&v.maker, scene, o.threads, 1, &watch);
+  status = hr2di_row_assembly_init(&v.maker, scene, o.threads, 1, &watch);
   if (!status) status = run(&v, scene->patches);
-  hr2di_row_maker_clear(&v.maker);
+  hr2di_row_assembly_clear(&v.maker);
   if (!status && counts) *counts = v.counts;
   return status;
 }

@@ -14,7 +14,7 @@
 #include "base/alloc.h"
 #include "scene/scene-impl.h"
 #include "visibility/entry-table.h"
-#include "visibility/row-maker.h"
+#include "visibility/row-assembly.h"
 
 typedef struct folder {
   const hr2d_scene *scene;
@@ -126,9 +126,9 @@ typedef struct row_errors {
 } row_errors;
 
 static void add_error(row_errors *e, const hr2di_entry_tail *tail) {
-  double most = 0;
-  for (int c = 0; c < HR2DI_TAIL_CHECKS; c++) most = fmax(most, fabs(tail->check[c]));
-  e->sum += most;
+  double max = 0;
+  for (int c = 0; c < HR2DI_TAIL_CHECKS; c++) max = fmax(max, fabs(tail->check[c]));
+  e->sum += max;
   e->all += fmax(tail->sum, 0);
 }
 
@@ -158,8 +158,8 @@ void hr2di_image_rows_complete(const hr2d_matrix_options *how, size_t rows) {
   for (size_t i = 0; i < rows && how->cut_off_bound; i++) how->cut_off_bound[i] = 0;
 }
 
-static void describe(void *of, hr2d_progress *told) {
-  told->fraction = hr2di_row_maker_fraction(of);
+static void describe(void *of, hr2d_progress *report) {
+  report->fraction = hr2di_row_assembly_fraction(of);
 }
 
 hr2d_status hr2di_image_rows_init(hr2di_image_rows *rows, const hr2d_scene *scene,
@@ -168,7 +168,7 @@ hr2d_status hr2di_image_rows_init(hr2di_image_rows *rows, const hr2d_scene *scen
   const hr2d_allocator *alloc = &scene->alloc;
   const int tails = hr2di_symmetry_cuts(&scene->symmetry);
   const int wanted = tails && (how->cut_off_estimate || how->cut_off_bound);
-  hr2di_row_maker maker = {.scene = scene};
+  hr2di_row_assembly maker = {.scene = scene};
   folder f = {.scene = scene,
               .n = hr2di_scene_cell(scene),
               .table = {.alloc = alloc, .watch = watch, .tails = tails},
@@ -177,14 +177,14 @@ hr2d_status hr2di_image_rows_init(hr2di_image_rows *rows, const hr2d_scene *scen
   *rows = (hr2di_image_rows){0};
   if (wanted) f.ends = hr2di_alloc_zero(alloc, f.n, sizeof *f.ends);
   hr2d_status status = wanted && !f.ends ? HR2D_ENOMEM : HR2D_OK;
-  if (!status) status = hr2di_row_maker_init(&maker, scene, 1, 0, watch);
+  if (!status) status = hr2di_row_assembly_init(&maker, scene, 1, 0, watch);
   hr2di_watch_describe(watch, describe, &maker);
-  if (!status) status = hr2di_row_maker_run(&maker, 0, maker.tasks, take, &f);
+  if (!status) status = hr2di_row_assembly_run(&maker, 0, maker.tasks, take, &f);
   hr2di_watch_describe(watch, NULL, NULL);
   if (!status) status = make_rows(&f, rows, &sum);
   if (!status && wanted) status = tell_errors(&f, how);
-  sum.visibility_tests = hr2di_row_maker_steps(&maker);
-  hr2di_row_maker_clear(&maker);
+  sum.visibility_tests = hr2di_row_assembly_steps(&maker);
+  hr2di_row_assembly_clear(&maker);
   hr2di_entry_table_clear(&f.table);
   hr2di_alloc_free(alloc, f.ends);
   if (!status && counts) *counts = sum;

@@ -6,14 +6,14 @@
 #include "visibility/point-view-impl.h"
 
 typedef struct visit {
-  const hr2di_viewer *viewer;
+  const hr2di_point_viewer *viewer;
   double unit;
   hr2d_beam_fn show;
   void *ctx;
 } visit;
 
 /* In the frame of the patch, whose front is on the left of its axis. */
-static hr2d_point direction(const hr2di_eye *e, const hr2di_ray *ray) {
+static hr2d_point direction(const hr2di_viewpoint *e, const hr2di_ray *ray) {
   const double x = e->axis.x / e->length, y = e->axis.y / e->length;
   return (hr2d_point){ray->sine * x - ray->cosine * y, ray->sine * y + ray->cosine * x};
 }
@@ -26,9 +26,9 @@ static hr2d_point along(hr2d_segment s, double t, double unit) {
 }
 
 /* The part of a back between the rays of a stretch; the side starts on the right. */
-static hr2d_segment find_back(const visit *v, const hr2di_stretch *s) {
-  const hr2di_viewer *w = v->viewer;
-  const hr2di_eye *e = &w->eye;
+static hr2d_segment find_back(const visit *v, const hr2di_visible_arc *s) {
+  const hr2di_point_viewer *w = v->viewer;
+  const hr2di_viewpoint *e = &w->viewpoint;
   if (s->side == HR2DI_HIDDEN) {
     const hr2d_point at = along(w->scene->patch[e->patch].scaled, e->t, v->unit);
     return (hr2d_segment){at, at};
@@ -46,9 +46,10 @@ static hr2d_segment find_back(const visit *v, const hr2di_stretch *s) {
   return (hr2d_segment){along(at, from, v->unit), along(at, to, v->unit)};
 }
 
-static hr2d_status show_stretch(void *ctx, const hr2di_stretch *s, const hr2di_glimpse *g) {
+static hr2d_status show_stretch(void *ctx, const hr2di_visible_arc *s,
+                                const hr2di_visible_interval *g) {
   const visit *v = ctx;
-  const hr2di_eye *e = &v->viewer->eye;
+  const hr2di_viewpoint *e = &v->viewer->viewpoint;
   hr2d_beam beam = {.struct_size = sizeof beam,
                     .seen = HR2D_SEEN_SKY,
                     .factor = g->sine,
@@ -69,27 +70,27 @@ static hr2d_status show_stretch(void *ctx, const hr2di_stretch *s, const hr2di_g
   return v->show(v->ctx, &beam);
 }
 
-static hr2d_status look(const hr2d_scene *scene, size_t patch, double t, visit *v,
-                        hr2di_watch *watch) {
-  hr2di_viewer *viewer = NULL;
+static hr2d_status trace(const hr2d_scene *scene, size_t patch, double t, visit *v,
+                         hr2di_watch *watch) {
+  hr2di_point_viewer *viewer = NULL;
   hr2di_view_from seen;
-  hr2d_status status = hr2di_viewer_create(scene, &scene->alloc, watch, &viewer);
+  hr2d_status status = hr2di_point_viewer_create(scene, &scene->alloc, watch, &viewer);
   if (status) return status;
   v->viewer = viewer;
   viewer->show = show_stretch;
   viewer->ctx = v;
   status = hr2di_view_at(viewer, patch, t, &seen);
-  hr2di_viewer_destroy(viewer);
+  hr2di_point_viewer_destroy(viewer);
   return status;
 }
 
 /* Without the effect of occlusion nobody walks in the plane of a scene, which may have none. */
-static hr2d_status look_past_nothing(const hr2d_scene *scene, size_t patch, double t, visit *v,
+static hr2d_status view_unobstructed(const hr2d_scene *scene, size_t patch, double t, visit *v,
                                      hr2di_watch *watch) {
   hr2di_with_plane w;
   hr2d_status status = hr2di_with_plane_init(&w, scene, &scene->alloc, watch);
   w.scene.effect[HR2D_EFFECT_OCCLUSION].on = 1;
-  if (!status) status = w.scene.unclear.is ? HR2D_ESCENE : look(&w.scene, patch, t, v, watch);
+  if (!status) status = w.scene.unclear.is ? HR2D_ESCENE : trace(&w.scene, patch, t, v, watch);
   hr2di_with_plane_clear(&w);
   return status;
 }
@@ -103,6 +104,6 @@ hr2d_status hr2d_beams_visit(const hr2d_scene *scene, size_t patch, double t, hr
   hr2di_scene_watch(scene, &watch, NULL, NULL, "factors");
   visit v = {.unit = hr2d_scene_unit(scene), .show = show, .ctx = ctx};
   return scene->effect[HR2D_EFFECT_OCCLUSION].on
-             ? look(scene, patch, t, &v, &watch)
-             : look_past_nothing(scene, patch, t, &v, &watch);
+             ? trace(scene, patch, t, &v, &watch)
+             : view_unobstructed(scene, patch, t, &v, &watch);
 }

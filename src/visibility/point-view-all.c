@@ -17,7 +17,7 @@ static double extent(const hr2di_vector *v) {
 
 /* (q−p)×(x−p), which is linear in t, by its sign; where that is 0 and the patch touches the
    point, the sign towards the middle of the point's own patch. */
-static int side_close(const hr2di_eye *e, const hr2di_ray *p, const hr2di_ray *q) {
+static int side_close(const hr2di_viewpoint *e, const hr2di_ray *p, const hr2di_ray *q) {
   const double at_a = hr2di_orient(p->at, q->at, e->a);
   const double at_b = hr2di_orient(p->at, q->at, e->b);
   const int side = hr2di_sign_of(at_a * (1 - e->t) + at_b * e->t);
@@ -28,7 +28,7 @@ static int side_close(const hr2di_eye *e, const hr2di_ray *p, const hr2di_ray *q
 }
 
 /* Which side of a patch the point sees: 1 the front, -1 the back, 0 neither. */
-static int side_seen(const hr2di_eye *e, const hr2di_ray *p, const hr2di_ray *q) {
+static int side_seen(const hr2di_viewpoint *e, const hr2di_ray *p, const hr2di_ray *q) {
   const double det = hr2di_det(&p->to, &q->to);
   if (fabs(det) > 0x1p-100 * extent(&p->to) * extent(&q->to)) return hr2di_sign_of(det);
   return side_close(e, p, q);
@@ -46,14 +46,14 @@ static int has_twin(const hr2d_scene *scene, size_t k) {
 }
 
 /* Adds a patch with rays to its ends; *backs is set if it shows its back. */
-static hr2d_status add(hr2di_viewer *w, size_t k, const hr2di_ray *p, const hr2di_ray *q,
+static hr2d_status add(hr2di_point_viewer *w, size_t k, const hr2di_ray *p, const hr2di_ray *q,
                        int *backs) {
   const int p_above = p->height > 0, q_above = q->height > 0;
   if (!p_above && !q_above) return HR2D_OK;
-  const int side = side_seen(&w->eye, p, q);
+  const int side = side_seen(&w->viewpoint, p, q);
   if (side == 0 || (side < 0 && has_twin(w->scene, k))) return HR2D_OK;
   const int starts = side > 0 ? p_above : q_above, ends = side > 0 ? q_above : p_above;
-  hr2di_stretch s = {.patch = (uint32_t)k, .starts = starts, .ends = ends};
+  hr2di_visible_arc s = {.patch = (uint32_t)k, .starts = starts, .ends = ends};
   s.right = starts ? side > 0 ? *p : *q : hr2di_ray_horizon(1, HR2DI_VIEW_NO_VERTEX);
   s.left = ends ? side > 0 ? *q : *p : hr2di_ray_horizon(-1, HR2DI_VIEW_NO_VERTEX);
   if (hr2di_alloc_reserve(&w->alloc, &w->span, &w->span_room, w->spans + 1, sizeof *w->span))
@@ -71,7 +71,7 @@ static int from_the_right(const void *left, const void *right) {
 }
 
 /* What something covers, less what fronts do: as no front is hidden, that is all of them. */
-static hr2d_status add_backs(hr2di_viewer *w) {
+static hr2d_status add_backs(hr2di_point_viewer *w) {
   hr2di_sum sum = {0, 0};
   const hr2d_status status =
       hr2di_sort(w->span, w->spans, sizeof *w->span, from_the_right, w->watch);
@@ -81,12 +81,12 @@ static hr2d_status add_backs(hr2di_viewer *w) {
     end = fmin(w->span[k][1], end);
     hr2di_sum_add(&sum, (start - end) / 2);
   }
-  for (size_t k = 0; k < w->glimpses; k++) hr2di_sum_add(&sum, -w->glimpse[k].sine);
+  for (size_t k = 0; k < w->intervals; k++) hr2di_sum_add(&sum, -w->interval[k].sine);
   hr2di_sum_add(&w->back, fmax(hr2di_sum_total(&sum), 0));
   return status;
 }
 
-hr2d_status hr2di_view_all(hr2di_viewer *w) {
+hr2d_status hr2di_view_all(hr2di_point_viewer *w) {
   const hr2d_scene *scene = w->scene;
   hr2di_ray p, q = {.vertex = HR2DI_VIEW_NO_VERTEX};
   hr2d_status status = HR2D_OK;
@@ -99,11 +99,11 @@ hr2d_status hr2di_view_all(hr2di_viewer *w) {
     if (k > 0 && hr2di_point_same(s.a, scene->patch[k - 1].scaled.b)) {
       p = q;
     } else {
-      p = hr2di_ray_to(&w->eye, s.a);
-      hr2di_ray_measure(&w->eye, &p);
+      p = hr2di_ray_to(&w->viewpoint, s.a);
+      hr2di_ray_measure(&w->viewpoint, &p);
     }
-    q = hr2di_ray_to(&w->eye, s.b);
-    hr2di_ray_measure(&w->eye, &q);
+    q = hr2di_ray_to(&w->viewpoint, s.b);
+    hr2di_ray_measure(&w->viewpoint, &q);
     status = add(w, k, &p, &q, &backs);
   }
   return status || !backs ? status : add_backs(w);

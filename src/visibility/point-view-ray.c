@@ -19,8 +19,8 @@ static hr2d_point scale(hr2d_point p) {
   return (hr2d_point){HR2DI_VIEW_SCALE * p.x, HR2DI_VIEW_SCALE * p.y};
 }
 
-void hr2di_eye_init(hr2di_eye *e, hr2d_segment patch, size_t number, double t) {
-  *e = (hr2di_eye){.patch = number, .t = t, .a = scale(patch.a), .b = scale(patch.b)};
+void hr2di_viewpoint_init(hr2di_viewpoint *e, hr2d_segment patch, size_t number, double t) {
+  *e = (hr2di_viewpoint){.patch = number, .t = t, .a = scale(patch.a), .b = scale(patch.b)};
   e->base = t <= .5 ? e->a : e->b;
   const double from_base = t <= .5 ? t : t - 1;
   const hr2di_vector ab = hr2di_vector_difference(e->b, e->a);
@@ -41,7 +41,8 @@ static double minus(double p, double p_tail, double q, double q_tail, double *ta
   return head;
 }
 
-void hr2di_ray_aim(const hr2di_eye *e, hr2d_point place, uint32_t vertex, hr2di_ray *ray) {
+void hr2di_ray_aim(const hr2di_viewpoint *e, hr2d_point place, uint32_t vertex,
+                   hr2di_ray *ray) {
   ray->at = scale(place);
   ray->vertex = vertex;
   ray->horizon = 0;
@@ -51,7 +52,7 @@ void hr2di_ray_aim(const hr2di_eye *e, hr2d_point place, uint32_t vertex, hr2di_
   ray->to.e = 0;
 }
 
-void hr2di_ray_measure(const hr2di_eye *e, hr2di_ray *ray) {
+void hr2di_ray_measure(const hr2di_viewpoint *e, hr2di_ray *ray) {
   const hr2di_vector d = hr2di_vector_difference(ray->at, e->base);
   ray->height = hr2di_det(&e->axis, &d) / e->length;
   ray->distance = ray->sine = ray->cosine = 0;
@@ -78,7 +79,7 @@ static int turn(const hr2di_vector *u, const hr2di_vector *v) {
   return hr2di_sign_of(hr2di_det(u, v));
 }
 
-int hr2di_ray_turn(const hr2di_eye *e, const hr2di_ray *from, const hr2di_ray *to) {
+int hr2di_ray_turn(const hr2di_viewpoint *e, const hr2di_ray *from, const hr2di_ray *to) {
   if (!from->horizon) return turn(&from->to, &to->to);
   const hr2di_vector d = hr2di_vector_difference(to->at, e->base);
   return from->horizon * turn(&e->axis, &d);

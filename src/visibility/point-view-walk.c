@@ -15,13 +15,13 @@
 
 /* Most vertices are far beside the angle, and the first glance says so. */
 static int side_of(void *ctx, void *right, void *left, uint32_t vertex, void *split) {
-  const hr2di_viewer *w = ctx;
-  const hr2di_eye *e = &w->eye;
+  const hr2di_point_viewer *w = ctx;
+  const hr2di_viewpoint *e = &w->viewpoint;
   const hr2d_point place = w->scene->plane.triangulation.at[vertex];
-  const hr2di_glance glance = hr2di_glance_at(e, place);
-  int of_right = hr2di_glance_turn(e, right, &glance), of_left = 0;
+  const hr2di_ray_filter ray_filter = hr2di_ray_filter_at(e, place);
+  int of_right = hr2di_ray_filter_turn(e, right, &ray_filter), of_left = 0;
   if (of_right < 0) return -1;
-  if (of_right > 0) of_left = hr2di_glance_turn(e, left, &glance);
+  if (of_right > 0) of_left = hr2di_ray_filter_turn(e, left, &ray_filter);
   if (of_left > 0) return 1;
   hr2di_ray_aim(e, place, vertex, split);
   if (of_right == 0) of_right = hr2di_ray_turn(e, right, split);
@@ -34,9 +34,9 @@ static int side_of(void *ctx, void *right, void *left, uint32_t vertex, void *sp
 
 /* Goes on to see something from where it saw something else last.  Backs are told apart only
    where they are shown. */
-static hr2d_status see(hr2di_viewer *w, uint32_t patch, hr2di_wall_side side,
+static hr2d_status see(hr2di_point_viewer *w, uint32_t patch, hr2di_wall_side side,
                        const hr2di_ray *left, int starts, int ends) {
-  hr2di_stretch *s = &w->seeing;
+  hr2di_visible_arc *s = &w->seeing;
   hr2d_status status = HR2D_OK;
   const int other_back = w->show && patch == HR2DI_SEEN_NOBODY && side != s->side;
   if (patch != s->patch || other_back) {
@@ -52,33 +52,33 @@ static hr2d_status see(hr2di_viewer *w, uint32_t patch, hr2di_wall_side side,
 }
 
 /* Whether the end of a part that lies between two rays on the right of it and on the left. */
-static int is_between(const hr2di_eye *e, const hr2di_ray *right, const hr2di_ray *left,
+static int is_between(const hr2di_viewpoint *e, const hr2di_ray *right, const hr2di_ray *left,
                       const hr2di_ray *v) {
   return hr2di_ray_turn(e, right, v) > 0 && hr2di_ray_turn(e, left, v) < 0;
 }
 
 /* A ray from an eye. */
 typedef struct sighted {
-  const hr2di_eye *eye;
+  const hr2di_viewpoint *viewpoint;
   const hr2di_ray *ray;
 } sighted;
 
 static int is_on_left(const void *of, hr2d_point place) {
   const sighted *b = of;
-  const hr2di_ray end = hr2di_ray_to(b->eye, place);
-  return hr2di_ray_turn(b->eye, b->ray, &end) > 0;
+  const hr2di_ray end = hr2di_ray_to(b->viewpoint, place);
+  return hr2di_ray_turn(b->viewpoint, b->ray, &end) > 0;
 }
 
 /* Sees the parts along a side from `right` to `left`.  The side starts on the right. */
-static hr2d_status see_parts(hr2di_viewer *w, hr2di_wall_side side, const hr2di_ray *right,
-                             const hr2di_ray *left) {
+static hr2d_status see_parts(hr2di_point_viewer *w, hr2di_wall_side side,
+                             const hr2di_ray *right, const hr2di_ray *left) {
   const hr2di_wall_edge *edge = &w->scene->plane.triangulation.edge[side >> 1];
   const hr2di_side_part *part = w->scene->parts.part;
   const hr2di_parts among = w->scene->parts.of_side[side].parts;
   const uint32_t start = side & 1 ? edge->to : edge->from,
                  end = side & 1 ? edge->from : edge->to;
   const int from_start = right->vertex == start;
-  const sighted first = {&w->eye, right};
+  const sighted first = {&w->viewpoint, right};
   hr2di_ray since = *right;
   hr2d_status status = HR2D_OK;
   uint32_t m = from_start ? among.first
@@ -87,10 +87,10 @@ static hr2d_status see_parts(hr2di_viewer *w, hr2di_wall_side side, const hr2di_
   for (; m < among.last && !status; m++) {
     const uint32_t patch = part[m].patch;
     const int last = m + 1 == among.last;
-    hr2di_ray until = hr2di_ray_to(&w->eye, part[m].at.b);
-    const int inside = !last && is_between(&w->eye, &since, left, &until);
-    if (!inside && !last && hr2di_ray_turn(&w->eye, left, &until) < 0) continue;
-    if (inside) hr2di_ray_measure(&w->eye, &until);
+    hr2di_ray until = hr2di_ray_to(&w->viewpoint, part[m].at.b);
+    const int inside = !last && is_between(&w->viewpoint, &since, left, &until);
+    if (!inside && !last && hr2di_ray_turn(&w->viewpoint, left, &until) < 0) continue;
+    if (inside) hr2di_ray_measure(&w->viewpoint, &until);
     const hr2d_segment *s =
         patch == HR2DI_NOBODY ? &part[m].at : &w->scene->patch[patch].scaled;
     const int ends = (inside || left->vertex == end) && hr2di_point_same(part[m].at.b, s->b);
@@ -105,7 +105,7 @@ static hr2d_status see_parts(hr2di_viewer *w, hr2di_wall_side side, const hr2di_
 }
 
 static hr2d_status end_at(void *ctx, int32_t what, const void *right, void *on_left) {
-  hr2di_viewer *w = ctx;
+  hr2di_point_viewer *w = ctx;
   const hr2di_ray *left = on_left;
   if (what == HR2DI_SKY) return see(w, HR2DI_SEEN_SKY, 0, left, 0, 0);
   const hr2di_wall_side side = (hr2di_wall_side)~what;
@@ -119,15 +119,15 @@ static hr2d_status end_at(void *ctx, int32_t what, const void *right, void *on_l
 
 /* The part of the patch at the point; NULL if it has none.  A point where two parts meet is
    in that towards the middle of the patch. */
-static const hr2di_side_part *part_at(const hr2di_viewer *w) {
+static const hr2di_side_part *part_at(const hr2di_point_viewer *w) {
   const hr2di_side_part *part = w->scene->parts.part;
-  const hr2di_parts of = w->scene->parts.of_patch[w->eye.patch];
+  const hr2di_parts of = w->scene->parts.of_patch[w->viewpoint.patch];
   uint32_t low = of.first, high = of.last;
   while (high - low > 1) {
     const uint32_t middle = low + (high - low) / 2;
-    const hr2di_ray start = hr2di_ray_to(&w->eye, part[middle].at.a);
-    const double along = hr2di_vector_dot(&start.to, &w->eye.axis);
-    if (along < 0 || (along == 0 && w->eye.t <= .5))
+    const hr2di_ray start = hr2di_ray_to(&w->viewpoint, part[middle].at.a);
+    const double along = hr2di_vector_dot(&start.to, &w->viewpoint.axis);
+    if (along < 0 || (along == 0 && w->viewpoint.t <= .5))
       low = middle;
     else
       high = middle;
@@ -136,22 +136,22 @@ static const hr2di_side_part *part_at(const hr2di_viewer *w) {
 }
 
 /* A patch that is a rounding behind another one, or that is but dust, sees only backs. */
-hr2d_status hr2di_view_walk(hr2di_viewer *w, const hr2di_ray border[2]) {
+hr2d_status hr2di_view_walk(hr2di_point_viewer *w, const hr2di_ray border[2]) {
   const hr2d_scene *scene = w->scene;
   const hr2di_triangulation *in = &scene->plane.triangulation;
   const hr2di_side_part *part = part_at(w);
-  const int hidden = !part || part->patch != w->eye.patch || part->side == HR2DI_HIDDEN;
+  const int hidden = !part || part->patch != w->viewpoint.patch || part->side == HR2DI_HIDDEN;
   const uint32_t side = hidden ? 0 : part->side;
   const hr2di_wall_edge *edge = &in->edge[side >> 1];
   const uint32_t *of_wall = scene->plane.pieces.of_wall;
-  const uint32_t wall = scene->walls.of_segment[w->eye.patch];
+  const uint32_t wall = scene->walls.of_segment[w->viewpoint.patch];
   const hr2di_ray right =
       border ? border[0] : hr2di_ray_horizon(1, side & 1 ? edge->from : edge->to);
   const hr2di_ray left =
       border ? border[1] : hr2di_ray_horizon(-1, side & 1 ? edge->to : edge->from);
   w->own[0] = in->edge_of[of_wall[wall]];
   w->own[1] = in->edge_of[of_wall[wall + 1]];
-  w->seeing = (hr2di_stretch){.patch = HR2DI_SEEN_NOTHING, .right = right, .left = right};
+  w->seeing = (hr2di_visible_arc){.patch = HR2DI_SEEN_NOTHING, .right = right, .left = right};
   w->between.in = in;
   w->between.watch = w->watch;
   w->between.alloc = w->alloc;

@@ -9,8 +9,8 @@
 #include "scene/scene-impl.h"
 #include "visibility/point-view-impl.h"
 
-hr2d_status hr2di_viewer_create(const hr2d_scene *scene, const hr2d_allocator *alloc,
-                                hr2di_watch *watch, hr2di_viewer **viewer) {
+hr2d_status hr2di_point_viewer_create(const hr2d_scene *scene, const hr2d_allocator *alloc,
+                                      hr2di_watch *watch, hr2di_point_viewer **viewer) {
   *viewer = hr2di_alloc_zero(alloc, 1, sizeof **viewer);
   if (!*viewer) return HR2D_ENOMEM;
   (*viewer)->alloc = *alloc;
@@ -19,12 +19,12 @@ hr2d_status hr2di_viewer_create(const hr2d_scene *scene, const hr2d_allocator *a
   return HR2D_OK;
 }
 
-void hr2di_viewer_destroy(hr2di_viewer *viewer) {
+void hr2di_point_viewer_destroy(hr2di_point_viewer *viewer) {
   if (!viewer) return;
   const hr2d_allocator alloc = viewer->alloc;
   hr2di_triangular_expansion_clear(&viewer->between);
   hr2di_alloc_free(&alloc, viewer->span);
-  hr2di_alloc_free(&alloc, viewer->glimpse);
+  hr2di_alloc_free(&alloc, viewer->interval);
   hr2di_alloc_free(&alloc, viewer->sorted);
   hr2di_alloc_free(&alloc, viewer->arc);
   hr2di_alloc_free(&alloc, viewer->order);
@@ -37,37 +37,38 @@ static int by_number(const void *left, const void *right) {
 }
 
 /* By patches, keeping the order of those of one patch. */
-static hr2d_status sort_glimpses(hr2di_viewer *w) {
-  const size_t count = w->glimpses;
+static hr2d_status sort_intervals(hr2di_point_viewer *w) {
+  const size_t count = w->intervals;
   if (count > UINT32_MAX ||
       hr2di_alloc_reserve(&w->alloc, &w->order, &w->order_room, count, sizeof *w->order) ||
       hr2di_alloc_reserve(&w->alloc, &w->sorted, &w->sorted_room, count, sizeof *w->sorted))
     return HR2D_ENOMEM;
-  for (size_t k = 0; k < count; k++) w->order[k] = (uint64_t)w->glimpse[k].patch << 32 | k;
+  for (size_t k = 0; k < count; k++) w->order[k] = (uint64_t)w->interval[k].patch << 32 | k;
   const hr2d_status status = hr2di_sort(w->order, count, sizeof *w->order, by_number, w->watch);
-  for (size_t k = 0; k < count; k++) w->sorted[k] = w->glimpse[w->order[k] & UINT32_MAX];
+  for (size_t k = 0; k < count; k++) w->sorted[k] = w->interval[w->order[k] & UINT32_MAX];
   return status;
 }
 
-static int is_hidden(const hr2di_viewer *w) {
+static int is_hidden(const hr2di_point_viewer *w) {
   return w->scene->effect[HR2D_EFFECT_OCCLUSION].on ||
          ((w->scene->sky.pieces || hr2di_symmetry_cuts(&w->scene->symmetry)) &&
           w->scene->parts.wanted);
 }
 
-static hr2d_status look(hr2di_viewer *w, const hr2di_ray border[2], hr2di_view_from *seen) {
+static hr2d_status examine(hr2di_point_viewer *w, const hr2di_ray border[2],
+                           hr2di_view_from *seen) {
   const int hidden = is_hidden(w);
-  w->glimpses = w->arcs = 0;
+  w->intervals = w->arcs = 0;
   w->back = (hr2di_sum){0, 0};
   hr2d_status status = hr2di_watch_work(w->watch, 1);
   if (!status) status = hidden ? hr2di_view_walk(w, border) : hr2di_view_all(w);
-  if (!status && hidden) status = sort_glimpses(w);
+  if (!status && hidden) status = sort_intervals(w);
   if (status) return status;
-  const hr2di_glimpse *glimpse = hidden ? w->sorted : w->glimpse;
+  const hr2di_visible_interval *interval = hidden ? w->sorted : w->interval;
   hr2di_sum front = {0, 0};
-  for (size_t k = 0; k < w->glimpses; k++) hr2di_sum_add(&front, glimpse[k].sine);
-  *seen = (hr2di_view_from){.glimpse = glimpse,
-                            .count = w->glimpses,
+  for (size_t k = 0; k < w->intervals; k++) hr2di_sum_add(&front, interval[k].sine);
+  *seen = (hr2di_view_from){.interval = interval,
+                            .count = w->intervals,
                             .arc = (const double(*)[2])w->arc,
                             .arcs = w->arcs,
                             .front = fmin(hr2di_sum_total(&front), 1),
@@ -76,22 +77,23 @@ static hr2d_status look(hr2di_viewer *w, const hr2di_ray border[2], hr2di_view_f
   return HR2D_OK;
 }
 
-hr2d_status hr2di_view_at(hr2di_viewer *viewer, size_t patch, double t, hr2di_view_from *seen) {
-  hr2di_eye_init(&viewer->eye, viewer->scene->patch[patch].scaled, patch, t);
-  return look(viewer, NULL, seen);
+hr2d_status hr2di_view_at(hr2di_point_viewer *viewer, size_t patch, double t,
+                          hr2di_view_from *seen) {
+  hr2di_viewpoint_init(&viewer->viewpoint, viewer->scene->patch[patch].scaled, patch, t);
+  return examine(viewer, NULL, seen);
 }
 
-hr2d_status hr2di_view_between(hr2di_viewer *viewer, size_t patch, double t,
+hr2d_status hr2di_view_between(hr2di_point_viewer *viewer, size_t patch, double t,
                                const hr2d_point border[2], hr2di_view_from *seen) {
   hr2di_ray ray[2];
-  hr2di_eye_init(&viewer->eye, viewer->scene->patch[patch].scaled, patch, t);
+  hr2di_viewpoint_init(&viewer->viewpoint, viewer->scene->patch[patch].scaled, patch, t);
   for (int k = 0; k < 2; k++) {
-    ray[k] = hr2di_ray_to(&viewer->eye, border[k]);
-    hr2di_ray_measure(&viewer->eye, &ray[k]);
+    ray[k] = hr2di_ray_to(&viewer->viewpoint, border[k]);
+    hr2di_ray_measure(&viewer->viewpoint, &ray[k]);
   }
   const int all = !(ray[0].height > 0) || !(ray[1].height > 0) || !is_hidden(viewer);
   viewer->sines_only = 1;
-  const hr2d_status status = look(viewer, all ? NULL : ray, seen);
+  const hr2d_status status = examine(viewer, all ? NULL : ray, seen);
   viewer->sines_only = 0;
   return status;
 }

@@ -9,32 +9,32 @@
 #include "base/watch.h"
 
 /* A part of a patch's front, all of it seen from the point with nothing in between. */
-typedef struct hr2di_glimpse {
+typedef struct hr2di_visible_interval {
   uint32_t patch;
   double from, to; /* of the patch, fractions of its length from its start, from < to */
   double sine;     /* ½ |sin θ_from − sin θ_to|, θ measured from the normal at the point:
                       the form factor from the point to the part; > 0 */
-} hr2di_glimpse;
+} hr2di_visible_interval;
 
 /* Work space of one thread, and the last view. */
-typedef struct hr2di_viewer hr2di_viewer;
+typedef struct hr2di_point_viewer hr2di_point_viewer;
 
 /* For a committed scene.  HR2D_OK or HR2D_ENOMEM.  Costs nothing: what viewers share is the
    scene's. */
-hr2d_status hr2di_viewer_create(const hr2d_scene *scene, const hr2d_allocator *alloc,
-                                hr2di_watch *watch, hr2di_viewer **viewer);
-void hr2di_viewer_destroy(hr2di_viewer *viewer);
+hr2d_status hr2di_point_viewer_create(const hr2d_scene *scene, const hr2d_allocator *alloc,
+                                      hr2di_watch *watch, hr2di_point_viewer **viewer);
+void hr2di_point_viewer_destroy(hr2di_point_viewer *viewer);
 
 typedef struct hr2di_view_from {
-  const hr2di_glimpse *glimpse; /* by patch, and along each patch from its start to its end;
-                                   owned by the viewer, valid until its next call */
+  const hr2di_visible_interval *interval; /* by patch, and along each patch from its start to
+                                   its end; owned by the viewer, valid until its next call */
   size_t count;
-  double front; /* Σ glimpse.sine: the row sum at the point, at most 1 */
+  double front; /* Σ visible interval.sine: the row sum at the point, at most 1 */
   double back;  /* the same for backs of patches that have a front only, which are black
                    and opaque */
   double sky;   /* 1 − front − back, at least 0: the form factor of the background */
   const double (*arc)[2]; /* of the sky, where that has pieces or a period is cut off: sines
-                             from low to high; the viewer's, as the glimpses */
+                             from low to high; the viewer's, as the visible intervals */
   size_t arcs;
 } hr2di_view_from;
 
@@ -53,13 +53,14 @@ typedef struct hr2di_view_from {
    coordinates behind another patch sees nothing but backs.
    Cost: if no patch can be in the way of another O(n), or O(n log n) where backs are in front;
    else that of the triangles of the plane that the view passes. */
-hr2d_status hr2di_view_at(hr2di_viewer *viewer, size_t patch, double t, hr2di_view_from *seen);
+hr2d_status hr2di_view_at(hr2di_point_viewer *viewer, size_t patch, double t,
+                          hr2di_view_from *seen);
 
 /* The part of that view between the rays through two places, border[0] on the right of
    border[1], in coordinates of hr2di_patch::scaled; `sky` has all the rest.  It enters the
    triangles between the rays only, and may leave fractions of patches unset.  It is the whole
    view where a place is not in front of the patch, or where nothing can be in the way. */
-hr2d_status hr2di_view_between(hr2di_viewer *viewer, size_t patch, double t,
+hr2d_status hr2di_view_between(hr2di_point_viewer *viewer, size_t patch, double t,
                                const hr2d_point border[2], hr2di_view_from *seen);
 
 #endif

@@ -65,10 +65,10 @@ static void print_lists(void) {
     printf("corruption %s\n", *name);
 }
 
-static int number(const char *text, double least, double *value) {
+static int number(const char *text, double min, double *value) {
   char *end;
   *value = strtod(text, &end);
-  return end != text && !*end && *value >= least;
+  return end != text && !*end && *value >= min;
 }
 
 static int parse(int argc, char **argv, settings *s) {

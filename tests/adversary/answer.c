@@ -46,8 +46,8 @@ static hr2d_status enough(void *ctx, const hr2d_progress *progress) {
   return now() > s->time || work() > s->work ? HR2D_STOPPED : HR2D_OK;
 }
 
-static void brighter(double *most, double value) {
-  if (value > *most) *most = value;
+static void brighter(double *max, double value) {
+  if (value > *max) *max = value;
 }
 
 static void read_averages(adv_answer *a) {

@@ -27,13 +27,13 @@ static double of_average(const adv_answer *a, hr2d_error error, int q, size_t pa
 
 #if !ADV_ACCOUNT_OF_H
 /* The smallest reflectance of the band that is not 0; 1 if all are. */
-static double least_reflectance(const adv_scene *scene, size_t band) {
-  double least = 1;
+static double min_reflectance(const adv_scene *scene, size_t band) {
+  double min = 1;
   for (size_t k = 0; k < scene->count; k++) {
     double rho = scene->patch[k].reflectance[band];
-    if (rho > 0 && rho < least) least = rho;
+    if (rho > 0 && rho < min) min = rho;
   }
-  return least;
+  return min;
 }
 #endif
 
@@ -56,7 +56,7 @@ double adv_point_error(const adv_answer *a, int quantity, size_t patch, size_t b
 #else
   double rho = a->scene->patch[patch].reflectance[band];
   return times(relative(a->account.sup), a->sup[ADV_B][band]) /
-         (rho > 0 ? rho : least_reflectance(a->scene, band));
+         (rho > 0 ? rho : min_reflectance(a->scene, band));
 #endif
 }
 

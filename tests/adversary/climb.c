@@ -55,10 +55,10 @@ static void count(record *sum, const adv_measure *m) {
 
 static void keep_worst(finding *worst, const adv_scene *scene, const adv_measure *m,
                        unsigned long steps) {
-  double most = 0;
-  for (int check = 0; check < ADV_CHECKS; check++) most = fmax(most, m->outcome.worst[check]);
-  if (!(most > worst->severity)) return;
-  worst->severity = most;
+  double max = 0;
+  for (int check = 0; check < ADV_CHECKS; check++) max = fmax(max, m->outcome.worst[check]);
+  if (!(max > worst->severity)) return;
+  worst->severity = max;
   worst->steps = steps;
   worst->scene = *scene;
   worst->measure = *m;

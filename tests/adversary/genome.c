@@ -8,7 +8,7 @@ static const double coarsest = -1, finest = -9;
 
 /* The sizes of steps, as decimal logarithms: errors rise over much of a family, and have peaks
    that are narrow. */
-static const double least_step = -5, largest_step = -0.3;
+static const double min_step = -5, largest_step = -0.3;
 
 static double normal(adv_random *r) {
   const double u = adv_real(r, 0, 1), v = adv_real(r, 0, 1);
@@ -31,7 +31,7 @@ static double mutated(const adv_genome *g, int genes, int k, adv_random *r) {
     return round(g->gene[k] * parts) / parts;
   }
   if (what < 0.15) return g->gene[adv_int(r, 0, genes - 1)];
-  const double step = pow(10, adv_real(r, least_step, largest_step));
+  const double step = pow(10, adv_real(r, min_step, largest_step));
   return reflected(g->gene[k] + step * normal(r));
 }
 

@@ -26,9 +26,9 @@ static void add_sky(adv_scene *scene, adv_random *r) {
   double from = adv_int(r, -8 * 120, 0) / 8.0, end = from + 360;
   for (int n = adv_int(r, 1, 4); n > 0 && from < end - 1; n--) {
     adv_piece *p = &scene->piece[scene->pieces++];
-    const double most = fmin(adv_chance(r, 0.3) ? 4 : 120, end - from);
+    const double max = fmin(adv_chance(r, 0.3) ? 4 : 120, end - from);
     p->from = from;
-    p->to = from + adv_int(r, 1, (int)(8 * most)) / 8.0;
+    p->to = from + adv_int(r, 1, (int)(8 * max)) / 8.0;
     for (size_t band = 0; band < scene->bands; band++)
       p->value[band] = adv_int(r, 0, 64) / 64.0;
     from = p->to + (adv_chance(r, 0.5) ? 0 : adv_int(r, 1, 8 * 20) / 8.0);

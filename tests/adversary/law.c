@@ -37,12 +37,12 @@ static void transform(adv_trial *trial, adv_scene *copy) {
 }
 
 static int bits(const adv_trial *trial) {
-  int most = adv_bits(trial->scene);
+  int max = adv_bits(trial->scene);
   for (int c = 0; c < trial->copies; c++) {
     int other = adv_bits(&trial->copy[c]);
-    if (other > most) most = other;
+    if (other > max) max = other;
   }
-  return most;
+  return max;
 }
 
 /* Asks for each scene, and judges each answer by itself. */
@@ -246,16 +246,16 @@ static void narrow_sky(adv_scene *scene) {
 static void widen_for_narrow_sky(const adv_scene *scene, adv_claims *claims) {
   const double delta = 2e-8, rounding = 0x1p-50 / delta;
   adv_extent e = adv_extent_of(scene);
-  double n = (double)scene->count, most = 0;
+  double n = (double)scene->count, max = 0;
   double across = ldexp(hypot((double)(e.high[0] - e.low[0]), (double)(e.high[1] - e.low[1])),
                         scene->exponent);
-  for (size_t k = 0; k < scene->count; k++) most = fmax(most, scene->patch[k].reflectance[0]);
+  for (size_t k = 0; k < scene->count; k++) max = fmax(max, scene->patch[k].reflectance[0]);
   for (size_t k = 0; k < scene->count; k++) {
     double length = adv_length(scene, k);
     double own =
         scene->sun[0].irradiance * (delta * (2 * n * across + length) + rounding * length);
     for (int q = 0; q < ADV_QUANTITIES; q++) {
-      claims->average[q][k][0].error += own * (1 + n * most / (1 - most)) / length;
+      claims->average[q][k][0].error += own * (1 + n * max / (1 - max)) / length;
       for (int j = 0; j < ADV_POINTS; j++) claims->point[q][k][j][0].error = INFINITY;
     }
   }

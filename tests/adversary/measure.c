@@ -41,7 +41,7 @@ static int is_blurred(const adv_measure *m) {
    what roundings may be.  An estimate of 0 is right if nothing remains. */
 static double over_estimate(const adv_measure *m) {
   const adv_answer *a = &m->asked;
-  double most = 0;
+  double max = 0;
   for (size_t k = 0; k < a->scene->count; k++) {
     if (!adv_is_asked(&a->question, k)) continue;
     const adv_claim *one = &m->claimed.average[ADV_B][k][0];
@@ -50,9 +50,9 @@ static double over_estimate(const adv_measure *m) {
         fmax(fabs(two->value), a->question.floor * m->truth.brightest[ADV_B][0]);
     const double off = fabs(one->value - two->value) - two->error -
                        fmin(one->error, ROUNDINGS * scale) - 0x1p-53 * one->value;
-    if (off > 0) most = fmax(most, off / scale / a->account.average.estimate);
+    if (off > 0) max = fmax(max, off / scale / a->account.average.estimate);
   }
-  return most;
+  return max;
 }
 
 static double worst(const adv_outcome *o, adv_check one, adv_check two) {

@@ -83,12 +83,12 @@ int adv_is_symmetric(const adv_scene *scene) {
 }
 
 /* Multiples of 1/64, so that 1 − ρ and sums of emissions are exact. */
-void adv_paint(adv_scene *scene, adv_random *r, double most) {
+void adv_paint(adv_scene *scene, adv_random *r, double max) {
   for (size_t band = 0; band < scene->bands; band++) {
     for (size_t k = 0; k < scene->count; k++) {
       adv_patch *p = &scene->patch[k];
       p->emission[band] = adv_chance(r, 0.6) ? 0 : adv_int(r, 1, 64) / 64.0;
-      p->reflectance[band] = adv_chance(r, 0.15) ? 0 : floor(adv_real(r, 0, most) * 64) / 64;
+      p->reflectance[band] = adv_chance(r, 0.15) ? 0 : floor(adv_real(r, 0, max) * 64) / 64;
     }
     scene->patch[adv_int(r, 0, (int)scene->count - 1)].emission[band] = 1;
   }
@@ -115,14 +115,14 @@ static int64_t magnitude(int64_t x) {
 
 int adv_bits(const adv_scene *scene) {
   adv_extent e = adv_extent_of(scene);
-  int64_t most = larger(magnitude(scene->period[0]), magnitude(scene->period[1]));
+  int64_t max = larger(magnitude(scene->period[0]), magnitude(scene->period[1]));
   for (size_t k = 0; k < scene->mirrors; k++)
     for (int end = 0; end < 2; end++)
-      most = larger(
-          most, larger(magnitude(scene->mirror[k].x[end]), magnitude(scene->mirror[k].y[end])));
-  for (int axis = 0; axis < 2; axis++) most = larger(most, larger(-e.low[axis], e.high[axis]));
+      max = larger(
+          max, larger(magnitude(scene->mirror[k].x[end]), magnitude(scene->mirror[k].y[end])));
+  for (int axis = 0; axis < 2; axis++) max = larger(max, larger(-e.low[axis], e.high[axis]));
   int bits = 0;
-  while (most >> bits) bits++;
+  while (max >> bits) bits++;
   return bits;
 }
 
@@ -151,9 +151,9 @@ int adv_has_sky(const adv_scene *scene) {
 }
 
 double adv_outside(const adv_scene *scene, size_t band) {
-  double most = fmax(scene->background[band], scene->sun[band].irradiance);
-  for (size_t k = 0; k < scene->pieces; k++) most = fmax(most, scene->piece[k].value[band]);
-  return most;
+  double max = fmax(scene->background[band], scene->sun[band].irradiance);
+  for (size_t k = 0; k < scene->pieces; k++) max = fmax(max, scene->piece[k].value[band]);
+  return max;
 }
 
 static hr2d_status set_day(const adv_scene *scene, hr2d_scene *built) {

@@ -76,8 +76,8 @@ void adv_box(adv_scene *scene, double x0, double y0, double x1, double y1);
 /* Whether a wall with these ends, rounded, would touch no patch that is there. */
 int adv_free(const adv_scene *scene, double ax, double ay, double bx, double by);
 
-/* Draws emissions and reflectances up to `most`; at least one patch emits in each band. */
-void adv_paint(adv_scene *scene, adv_random *r, double most);
+/* Draws emissions and reflectances up to `max`; at least one patch emits in each band. */
+void adv_paint(adv_scene *scene, adv_random *r, double max);
 
 /* Sets the reflectance of a patch in all bands. */
 void adv_reflect(adv_patch *patch, double reflectance);

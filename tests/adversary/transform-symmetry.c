@@ -135,10 +135,10 @@ int adv_fold(adv_scene *scene, adv_random *r) {
 /* The least of what roundings are beside: the patches, and the distances of ends from mirrors
    that they are not on. */
 static double smallest(const adv_scene *scene) {
-  double least = INFINITY;
+  double min = INFINITY;
   for (size_t k = 0; k < scene->count; k++) {
     const adv_patch *p = &scene->patch[k];
-    least = fmin(least, hypot((double)(p->x[1] - p->x[0]), (double)(p->y[1] - p->y[0])));
+    min = fmin(min, hypot((double)(p->x[1] - p->x[0]), (double)(p->y[1] - p->y[0])));
     for (size_t m = 0; m < 2 * scene->mirrors; m++) {
       int64_t u, v;
       const adv_line *line = &scene->mirror[m / 2];
@@ -146,15 +146,15 @@ static double smallest(const adv_scene *scene) {
       const double off =
           fabs((double)(u * (p->y[m % 2] - line->y[0]) - v * (p->x[m % 2] - line->x[0]))) /
           hypot((double)u, (double)v);
-      if (off > 0) least = fmin(least, off);
+      if (off > 0) min = fmin(min, off);
     }
   }
-  return least;
+  return min;
 }
 
 /* A reflection has some eight roundings of coordinates and of a unit vector. */
 void adv_allow_images(adv_scene *scene) {
-  double most = 0, light = 0, part = ldexp(0x1p-48, adv_bits(scene)) / smallest(scene);
+  double max = 0, light = 0, part = ldexp(0x1p-48, adv_bits(scene)) / smallest(scene);
   int oblique = 0;
   for (size_t k = 0; k < scene->mirrors; k++)
     oblique |= scene->mirror[k].x[0] != scene->mirror[k].x[1] &&
@@ -162,11 +162,11 @@ void adv_allow_images(adv_scene *scene) {
   for (size_t b = 0; b < scene->bands && oblique; b++) {
     light = fmax(light, adv_outside(scene, b));
     for (size_t k = 0; k < scene->count; k++) {
-      most = fmax(most, scene->patch[k].reflectance[b]);
+      max = fmax(max, scene->patch[k].reflectance[b]);
       light = fmax(light, scene->patch[k].emission[b]);
     }
   }
-  scene->turned += part * light / (1 - most);
+  scene->turned += part * light / (1 - max);
 }
 
 /* Whether the period takes a patch to the same side of all mirrors. */

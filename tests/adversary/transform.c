@@ -20,12 +20,12 @@ static void turn_sky(adv_scene *scene, int a, int b) {
     scene->piece[k].to -= angle;
   }
   for (size_t band = 0; band < scene->bands && a && b; band++) {
-    double most = 0, light = 0;
+    double max = 0, light = 0;
     for (size_t k = 0; k < scene->count; k++)
-      most = fmax(most, scene->patch[k].reflectance[band]);
+      max = fmax(max, scene->patch[k].reflectance[band]);
     for (size_t k = 0; k < scene->pieces; k++)
       light += scene->background[band] + 2 * scene->piece[k].value[band];
-    off = fmax(off, 0x1p-48 * light / (1 - most));
+    off = fmax(off, 0x1p-48 * light / (1 - max));
   }
   scene->turned += off;
 }
@@ -38,8 +38,8 @@ static void rotate_pair(int64_t *x, int64_t *y, int a, int b) {
 
 /* (x + iy)(a + bi). */
 static int multiply(adv_scene *scene, int a, int b) {
-  int most = (a < 0 ? -a : a) + (b < 0 ? -b : b), bits = 0;
-  while (most >> bits) bits++;
+  int max = (a < 0 ? -a : a) + (b < 0 ? -b : b), bits = 0;
+  while (max >> bits) bits++;
   if (adv_bits(scene) + bits > BITS) return 0;
   for (size_t k = 0; k < scene->count; k++)
     for (int end = 0; end < 2; end++)

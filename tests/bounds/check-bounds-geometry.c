@@ -165,9 +165,9 @@ static double length_error(const void *ctx, const double *x) {
   (void)ctx;
   hr2d_scene *scene = scene_of(hill_point(x, 0), hill_point(x, 1));
   if (!scene) return -1;
-  double most = 0;
-  for (int k = 0; k < 4; k++) most = fmax(most, fabs(x[k]));
-  ck_assert_double_eq(hr2d_scene_unit(scene), ldexp(1, ilogb(most)));
+  double max = 0;
+  for (int k = 0; k < 4; k++) max = fmax(max, fabs(x[k]));
+  ck_assert_double_eq(hr2d_scene_unit(scene), ldexp(1, ilogb(max)));
   mpfr_t exact;
   mpfr_init2(exact, MPFR_PREC_MIN);
   mpfr_distance(exact, hill_point(x, 0), hill_point(x, 1));
@@ -219,17 +219,17 @@ static double off_exact(const hr2d_hierarchy *h, uint32_t e, uint64_t place, uns
   const hr2d_element *patch = &element[element[e].patch];
   const double ends[2][2] = {{patch->a.x, patch->b.x}, {patch->a.y, patch->b.y}};
   const double got[2] = {element[e].a.x, element[e].a.y};
-  double most = 0, worst = 0;
+  double max = 0, worst = 0;
   mpfr_t x;
   mpfr_init2(x, 1400);
-  for (int k = 0; k < 4; k++) most = fmax(most, fabs(ends[k / 2][k % 2]));
+  for (int k = 0; k < 4; k++) max = fmax(max, fabs(ends[k / 2][k % 2]));
   for (int k = 0; k < 2; k++) {
     mpfr_set_d(x, ends[k][1], MPFR_RNDN);
     mpfr_sub_d(x, x, ends[k][0], MPFR_RNDN);
     mpfr_mul_d(x, x, ldexp((double)place, -(int)level), MPFR_RNDN);
     mpfr_add_d(x, x, ends[k][0], MPFR_RNDN);
     mpfr_sub_d(x, x, got[k], MPFR_RNDN);
-    worst = fmax(worst, fabs(mpfr_get_d(x, MPFR_RNDN)) / most);
+    worst = fmax(worst, fabs(mpfr_get_d(x, MPFR_RNDN)) / max);
   }
   mpfr_clear(x);
   return level ? worst / level : worst > 0 ? INFINITY : 0;

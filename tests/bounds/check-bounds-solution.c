@@ -199,7 +199,7 @@ static void make_dense(dense *d, const test_links *t) {
 /* The error times 1 − ρ. */
 static double solution_error(const void *ctx, const double *x) {
   (void)ctx;
-  double patch[4][6], most = 0, light = 0;
+  double patch[4][6], max = 0, light = 0;
   if (!(x[EPSILON] >= 0.7 && x[EPSILON] <= 4)) return -1;
   for (int k = 0; k < 4; k++) {
     if (!(x[LOSS + k] >= 0 && x[LOSS + k] <= 8 && x[EMISSION + k] >= 0 &&
@@ -209,7 +209,7 @@ static double solution_error(const void *ctx, const double *x) {
     const double wall[6] = {corner[k][0],     corner[k][1],    corner[k + 1][0],
                             corner[k + 1][1], x[EMISSION + k], rho};
     for (int m = 0; m < 6; m++) patch[k][m] = wall[m];
-    most = fmax(most, rho);
+    max = fmax(max, rho);
     light = fmax(light, x[EMISSION + k]);
   }
   if (light < 1e-100) return -1;
@@ -221,7 +221,7 @@ static double solution_error(const void *ctx, const double *x) {
   dense d;
   make_dense(&d, &t);
   eliminate(&d);
-  error = distance(&d, solution) * (1 - most);
+  error = distance(&d, solution) * (1 - max);
   for (int k = 0; k < d.leaves * (d.leaves + 1); k++) mpfr_clear(d.row[k]);
   free(d.row);
   for (uint64_t e = 0; e < hr2d_hierarchy_count(t.hierarchy).elements; e++)

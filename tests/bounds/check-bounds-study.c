@@ -141,14 +141,14 @@ static double off(double value, const mpfr_t exact, double size) {
 /* The slope of logarithms, and the sizes of both. */
 static void exact_slope(const hr2d_study_row *rows, mpfr_t slope, double *size) {
   mpfr_t x, y, sum[4];
-  double most_x = 0, most_y = 0;
+  double max_x = 0, max_y = 0;
   mpfr_inits2(PRECISION, x, y, sum[0], sum[1], sum[2], sum[3], (mpfr_ptr)0);
   for (int k = 0; k < 4; k++) mpfr_set_zero(sum[k], 1);
   for (int k = 0; k < ROWS; k++) {
     set_log_ratio(x, rows[k].counts.elements, rows[0].counts.elements);
     set_log_ratio(y, rows[k].counts.links, rows[0].counts.links);
-    most_x = fmax(most_x, fabs(mpfr_get_d(x, RN)));
-    most_y = fmax(most_y, fabs(mpfr_get_d(y, RN)));
+    max_x = fmax(max_x, fabs(mpfr_get_d(x, RN)));
+    max_y = fmax(max_y, fabs(mpfr_get_d(y, RN)));
     mpfr_add(sum[0], sum[0], x, RN);
     mpfr_add(sum[1], sum[1], y, RN);
     mpfr_fma(sum[2], x, x, sum[2], RN);
@@ -159,7 +159,7 @@ static void exact_slope(const hr2d_study_row *rows, mpfr_t slope, double *size) 
   mpfr_fms(x, sum[0], sum[0], sum[2], RN);
   mpfr_fms(y, sum[0], sum[1], sum[3], RN);
   mpfr_div(slope, y, x, RN);
-  *size = most_y / most_x;
+  *size = max_y / max_x;
   mpfr_clears(x, y, sum[0], sum[1], sum[2], sum[3], (mpfr_ptr)0);
 }
 
@@ -176,13 +176,13 @@ static double fit_error(const void *ctx, const double *x) {
   exact_fit(rows, exact);
   double spread = 0, size;
   exact_slope(rows, slope, &size);
-  const uint64_t first = rows[0].counts.links, least = rows[0].counts.elements;
+  const uint64_t first = rows[0].counts.links, min = rows[0].counts.elements;
   for (int k = 0; k < ROWS; k++) {
     const uint64_t links = rows[k].counts.links;
     spread = fmax(spread, (double)(links > first ? links - first : first - links));
   }
-  const double half = 0.5 * (double)(rows[1].counts.elements - least), l = (double)first;
-  const double ratio = ((double)least + half) / half;
+  const double half = 0.5 * (double)(rows[1].counts.elements - min), l = (double)first;
+  const double ratio = ((double)min + half) / half;
   double worst = off(fit.a, exact[0], spread * pow(1 + ratio, 2) + l);
   worst = fmax(worst, off(fit.b, exact[1], spread * (1 + 2 * ratio) / half));
   worst = fmax(worst, off(fit.c, exact[2], spread / half / half));

@@ -28,20 +28,20 @@ static void draw_pair_among(const void *ctx, randoms *r, double *x) {
 }
 
 /* Whether a point counts as lying on the line of a segment, but does not. */
-static int is_doubtful(hr2d_segment s, hr2d_point p, double most) {
+static int is_doubtful(hr2d_segment s, hr2d_point p, double max) {
   const double x = s.b.x - s.a.x, y = s.b.y - s.a.y;
   const double off = fabs(x * (p.y - s.a.y) - y * (p.x - s.a.x)) / hypot(x, y);
-  return off < 0x1p-48 * most && hr2d_orientation(s.a, s.b, p) != 0;
+  return off < 0x1p-48 * max && hr2d_orientation(s.a, s.b, p) != 0;
 }
 
 /* Relative to the extent of all. */
 static double occluded_error(const void *ctx, const double *x) {
   (void)ctx;
   hr2d_segment s[OCCLUDERS + 2];
-  double most = 0, area, back;
+  double max = 0, area, back;
   for (int k = 0; k < NUMBERS; k++) {
     if (fabs(x[k]) > 8) return -1;
-    for (int m = k % 2; m < k; m += 2) most = fmax(most, fabs(x[k] - x[m]));
+    for (int m = k % 2; m < k; m += 2) max = fmax(max, fabs(x[k] - x[m]));
   }
   for (int k = 0; k < OCCLUDERS + 2; k++) {
     const double *at = x + 4 * k;
@@ -50,11 +50,11 @@ static double occluded_error(const void *ctx, const double *x) {
   }
   for (int k = 0; k < OCCLUDERS + 2; k++)
     for (int m = 0; m < OCCLUDERS + 2; m++)
-      if (is_doubtful(s[m], s[k].a, most) || is_doubtful(s[m], s[k].b, most)) return -1;
+      if (is_doubtful(s[m], s[k].a, max) || is_doubtful(s[m], s[k].b, max)) return -1;
   if (hr2d_exchange_area_occluded(&s[0], &s[1], s + 2, OCCLUDERS, NULL, &area)) return -1;
   ck_assert_int_eq(hr2d_exchange_area_occluded(&s[1], &s[0], s + 2, OCCLUDERS, NULL, &back), 0);
   if (area != back || !(area >= 0)) return INFINITY;
-  return fabs(area - brute_strings(&s[0], &s[1], s + 2, OCCLUDERS)) / most;
+  return fabs(area - brute_strings(&s[0], &s[1], s + 2, OCCLUDERS)) / max;
 }
 
 START_TEST(occluded_areas_hold_their_bound) {

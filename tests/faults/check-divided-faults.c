@@ -6,7 +6,7 @@
 
 #include "base/share.h"
 #include "hierarchy/hierarchy-impl.h"
-#include "mesh/divided-links.h"
+#include "mesh/reuse-links.h"
 #include "solve/solve-how.h"
 #include "support/shares.h"
 #include "support/slow-scenes.h"
@@ -24,7 +24,7 @@ typedef struct own {
 typedef struct plan {
   unsigned victim;
   int single;    /* blocks are of floats */
-  long fails_at; /* an allocation within hr2di_divided_links(); negative: none */
+  long fails_at; /* an allocation within hr2di_reuse_links(); negative: none */
   own of[SHARES];
 } plan;
 
@@ -79,7 +79,7 @@ static void try(plan *p, hr2d_share *share, const hr2d_refine_options *given, tr
   if (p->fails_at >= 0 && share->number == p->victim)
     atomic_store(&o->memory.until_failure, p->fails_at);
   const hr2d_status status =
-      hr2di_divided_links(fine->links, coarse->links, &(hr2di_refine_how){0}, &options);
+      hr2di_reuse_links(fine->links, coarse->links, &(hr2di_refine_how){0}, &options);
   atomic_store(&o->memory.until_failure, -1);
   o->status = hr2di_share_agree(share, status);
   if (o->status) return;

@@ -105,9 +105,9 @@ static hr2d_status measure(fault_stage *s, uint64_t *sum) {
 }
 
 static void play(const char *name, fault_depth depth, fault_plan plan,
-                 hr2d_status (*call)(fault_stage *, uint64_t *), int most) {
+                 hr2d_status (*call)(fault_stage *, uint64_t *), int max) {
   const fault_act act = {
-      .name = name, .setting = {.depth = depth, .plan = plan}, .call = call, .most = most};
+      .name = name, .setting = {.depth = depth, .plan = plan}, .call = call, .max = max};
   fault_play(&act);
 }
 

@@ -33,7 +33,7 @@ static void rest(void) {
       (puppet){.at = -1};
 }
 
-static hr2d_status told(void *ctx, const hr2d_progress *progress) {
+static hr2d_status report(void *ctx, const hr2d_progress *progress) {
   (void)ctx;
   ck_assert_str_ne(progress->phase, "");
   ck_assert(progress->fraction >= 0 && progress->fraction <= 1);
@@ -108,7 +108,7 @@ static hr2d_refine_options fine(double epsilon, unsigned threads) {
   o.epsilon = epsilon;
   o.max_level = 8;
   o.threads = threads;
-  o.progress = told;
+  o.progress = report;
   return o;
 }
 
@@ -158,14 +158,14 @@ static hr2d_status study(fault_stage *s, uint64_t *sum) {
 
 static hr2d_status solve(fault_stage *s, uint64_t *sum) {
   hr2d_solve_options how = HR2D_SOLVE_OPTIONS_INIT;
-  how.progress = told;
+  how.progress = report;
   return fault_solve(s, sum, &how);
 }
 
 static hr2d_status matrix_on(fault_stage *s, uint64_t *sum, unsigned threads) {
   hr2d_matrix_options how = HR2D_MATRIX_OPTIONS_INIT;
   how.threads = threads;
-  how.progress = told;
+  how.progress = report;
   return fault_matrix(s, sum, &how);
 }
 
@@ -185,7 +185,7 @@ static hr2d_status reach_as(fault_stage *s, uint64_t *sum, size_t important, dou
   target.error = 1e-4;
   target.important = &important;
   target.important_count = important != ALL;
-  target.progress = told;
+  target.progress = report;
   target.seconds = budget;
   hr2d_solution_destroy(s->result);
   s->result = NULL;
@@ -210,7 +210,7 @@ static hr2d_status reach_in_time(fault_stage *s, uint64_t *sum) {
 static hr2d_status predict(fault_stage *s, uint64_t *sum) {
   hr2d_target target = HR2D_TARGET_INIT;
   hr2d_prediction p;
-  target.progress = told;
+  target.progress = report;
   const hr2d_status status = hr2d_predict(s->scene, &target, &p);
   if (!status) *sum = fault_mix_count(fault_mix_count(*sum, p.elements), p.links);
   return status;
@@ -220,7 +220,7 @@ static hr2d_status measure(fault_stage *s, uint64_t *sum) {
   hr2d_target how = HR2D_TARGET_INIT;
   hr2d_error average;
   how.error = 1e-3;
-  how.progress = told;
+  how.progress = report;
   const hr2d_status status = hr2d_solution_error(s->solution, &how, &average, NULL);
   if (!status) *sum = fault_mix(*sum, &average, sizeof average);
   return status;
@@ -318,9 +318,8 @@ static void disturb_everywhere(const act *a, puppet *who, const char *kind) {
   static int part = 0;
   const uint64_t usual = undisturbed(a, NULL, (puppet){0});
   const long calls = a->sure && a->sure < who->calls ? a->sure : who->calls;
-  const double multiplier = test_multiplier(),
-               most = 12 * (multiplier < 1 ? multiplier : 1) + 1;
-  const double step = (double)calls > most ? (double)calls / most : 1;
+  const double multiplier = test_multiplier(), max = 12 * (multiplier < 1 ? multiplier : 1) + 1;
+  const double step = (double)calls > max ? (double)calls / max : 1;
   if (!calls) return;
   for (double at = 0; at < (double)calls; at += step)
     disturb(a, who, (long)at, HR2D_STOPPED, usual);

@@ -12,8 +12,8 @@
 #include "base/alloc.h"
 #include "base/sort.h"
 #include "base/team.h"
+#include "beams/walk.h"
 #include "scene/scene-impl.h"
-#include "sight/walk.h"
 #include "support/memory.h"
 #include "support/random.h"
 #include "support/settings.h"
@@ -27,7 +27,7 @@ enum { MOST = 5 * HR2DI_WATCH_SPAN, REFUSAL = 77 };
 typedef struct witness {
   unsigned long asks, stop_at; /* the question that is refused; 0: none */
   uint64_t span;               /* of the watch from the first question on; 0: as it is */
-  uint64_t most, total;
+  uint64_t max, total;
 } witness;
 
 static hr2d_status ask(void *ctx, const hr2d_progress *progress) {
@@ -37,7 +37,7 @@ static hr2d_status ask(void *ctx, const hr2d_progress *progress) {
   ck_assert_str_ne(progress->phase, "");
   ck_assert(progress->fraction >= 0 && progress->fraction <= 1);
   if (w->span) watch->span = w->span;
-  w->most = watch->most > w->most ? watch->most : w->most;
+  w->max = watch->max > w->max ? watch->max : w->max;
   w->total = watch->total;
   return ++w->asks == w->stop_at ? (hr2d_status)REFUSAL : HR2D_OK;
 }
@@ -76,8 +76,8 @@ START_TEST(little_work_lies_between_two_questions) {
     slow_stage s = stage((slow_kind)(_i % SLOW_KINDS), order == 1 ? 160 : 24, &w);
     s.order = order;
     w = watch_phase(phase, &s, w);
-    ck_assert_msg(w.most <= MOST, "%s, %s, order %u: %llu units of work without a question",
-                  slow_name(s.kind), phase->name, order, (unsigned long long)w.most);
+    ck_assert_msg(w.max <= MOST, "%s, %s, order %u: %llu units of work without a question",
+                  slow_name(s.kind), phase->name, order, (unsigned long long)w.max);
     slow_clear(&s);
   }
 }
@@ -95,7 +95,7 @@ START_TEST(too_few_questions_are_noticed) {
     slow_stage s = stage(SLOW_SPOKES, calls[k].count, NULL);
     const witness w =
         watch_phase(phase_called(calls[k].name), &s, (witness){.span = 2 * (uint64_t)MOST});
-    ck_assert_msg(w.most > MOST, "%s", calls[k].name);
+    ck_assert_msg(w.max > MOST, "%s", calls[k].name);
     slow_clear(&s);
   }
 }
@@ -143,7 +143,7 @@ START_TEST(what_is_declared_is_what_is_done) {
 }
 END_TEST
 
-static hr2d_status ignore(void *ctx, const hr2di_sight *s, hr2di_wall_side j) {
+static hr2d_status ignore(void *ctx, const hr2di_line_class *s, hr2di_wall_side j) {
   (void)ctx;
   (void)s;
   (void)j;
@@ -242,9 +242,9 @@ static int stop_once(const slow_phase *phase, slow_kind kind, unsigned threads,
   ck_assert_int_eq(phase->prepare(&s), HR2D_OK);
   int ended = 0;
   for (int turn = 0; turn < 3 && !ended; turn++) {
-    const unsigned long most = threads == 1 ? asks : 1;
+    const unsigned long max = threads == 1 ? asks : 1;
     w = (witness){.span = 300,
-                  .stop_at = 1 + (unsigned long)(test_random(state) * (double)most)};
+                  .stop_at = 1 + (unsigned long)(test_random(state) * (double)max)};
     const int status = (int)phase->run(&s);
     /* Blocks that a stopped solve has made are kept, so that later ones ask less often. */
     ended = status == HR2D_OK && w.asks < w.stop_at;
@@ -324,7 +324,7 @@ END_TEST
 
 /* What a visitor got since the last question. */
 typedef struct listener {
-  unsigned long heard, most, all;
+  unsigned long heard, max, all;
 } listener;
 
 static hr2d_status ask_listener(void *ctx, const hr2d_progress *progress) {
@@ -338,7 +338,7 @@ static hr2d_status listen(void *ctx, const hr2d_warning *warning) {
   listener *l = ctx;
   (void)warning;
   l->all++;
-  if (++l->heard > l->most) l->most = l->heard;
+  if (++l->heard > l->max) l->max = l->heard;
   return HR2D_OK;
 }
 
@@ -352,7 +352,7 @@ START_TEST(warnings_come_with_questions_between) {
   o.progress_ctx = &l;
   ck_assert_int_eq(hr2d_scene_lint(s.scene, listen, &l, &o), HR2D_OK);
   ck_assert_uint_gt(l.all, 100);
-  ck_assert_uint_le(l.most, 10);
+  ck_assert_uint_le(l.max, 10);
   slow_clear(&s);
 }
 END_TEST
@@ -363,8 +363,8 @@ static hr2d_status count_solve(void *ctx, const hr2d_progress *progress) {
   return HR2D_OK;
 }
 
-/* With one link at most the answer is a sketch, whose work is the light from outside: each
-   patch looks at each piece of the sky, in .1 µs or more. */
+/* With one link at most the answer is a fallback solve, whose work is the light from outside:
+   each patch looks at each piece of the sky, in .1 µs or more. */
 START_TEST(sketches_declare_the_light_from_outside) {
   enum { PATCHES = 2000, PIECES = 24 };
   hr2d_sky_piece piece[PIECES];
@@ -412,7 +412,7 @@ START_TEST(sorts_are_sorted) {
     ck_assert_int_eq(hr2di_sort(item, COUNT, sizeof *item, by_value, &watch), HR2D_OK);
     ck_assert(!memcmp(item, expected, sizeof item));
     ck_assert_uint_gt(w.asks, 0);
-    ck_assert_uint_le(w.most, MOST);
+    ck_assert_uint_le(w.max, MOST);
     /* Also of many that are equal: n log n, and not n². */
     ck_assert_uint_le(w.total, 20 * COUNT);
   }

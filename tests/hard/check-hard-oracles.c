@@ -155,11 +155,11 @@ START_TEST(grazing_form_factors) {
   const double slope = 1. / 3, h = 0x1p-40;
   const hr2d_segment i = {{0, 0}, {1, slope}}, j = {{7, 7 * slope + h}, {8, 8 * slope + h}};
   const hr2d_point p = plane_middle(i), q = plane_middle(j);
-  const double r = hypot(q.x - p.x, q.y - p.y), most = fmax(plane_length(i), plane_length(j));
+  const double r = hypot(q.x - p.x, q.y - p.y), max = fmax(plane_length(i), plane_length(j));
   const double cosines =
       det_of(i, p, q) / (plane_length(i) * r) * (det_of(j, p, q) / (plane_length(j) * r));
   report("bf, cosines of 1e-13", textbook_bf(i, j, 1), ask(hr2d_oracle_bf(), i, j, 1),
-         0.5 * cosines * most / r, 48 * ROUNDING);
+         0.5 * cosines * max / r, 48 * ROUNDING);
   const hr2d_segment far = {{1e160, 1e160}, {0, 1e160}}, near = {{0, 0}, {1e160, 0}};
   const double unit = 0x1p+530;
   const hr2d_segment a = {{0, 0}, {1e160 / unit, 0}};
@@ -171,7 +171,7 @@ END_TEST
 
 /* A decision with ε equal to an estimate, or next to it: a² ≤ ε²r² in doubles decides by its
    roundings, and not as max(A)/r ≤ ε would. */
-START_TEST(ties) {
+START_TEST(image_map) {
   randoms r = randoms_stream(test_seed(), 8100);
   const int count = test_multiplier() < 0.1 ? 1000 : 10000;
   int textbook = 0, ours = 0;
@@ -255,6 +255,7 @@ START_TEST(l1_errors) {
 END_TEST
 
 TEST_SUITE("hard oracles") {
-  ADD_TESTS("hard", sizes, centres_that_coincide, grazing_form_factors, ties, touching_pairs);
+  ADD_TESTS("hard", sizes, centres_that_coincide, grazing_form_factors, image_map,
+            touching_pairs);
   REPEAT_TESTS(sizeof l1_cases / sizeof *l1_cases, "hard", l1_errors);
 }

@@ -263,10 +263,10 @@ static void check_bytes(int shaded, const hr2d_oracle *oracle, int how, unsigned
   options.packed = oracle == hr2d_oracle_bf();
   hr2d_refine_counts counts;
   const hr2d_status status = run(&t, &options, how, &counts);
-  const long long most = atomic_load(&m.peak) - before;
-  ck_assert_msg(most <= (long long)budget + (shaded ? 1024 : 0),
+  const long long max = atomic_load(&m.peak) - before;
+  ck_assert_msg(max <= (long long)budget + (shaded ? 1024 : 0),
                 "%d, %s, how %d, threads %u: %lld of %llu bytes", shaded, oracle->name, how,
-                threads, most, (unsigned long long)budget);
+                threads, max, (unsigned long long)budget);
   ck_assert(status == HR2D_OK || status == HR2D_EMAX_BYTES);
   if (status) {
     char figure[40];

@@ -116,12 +116,12 @@ static void same_bits(const answer *a, const answer *b, int exponent) {
 }
 
 static double largest_change(const double *a, const double *b, size_t count) {
-  double change = 0, most = 0;
+  double change = 0, max = 0;
   for (size_t k = 0; k < count; k++) {
     change = fmax(change, fabs(a[k] - b[k]));
-    most = fmax(most, fabs(a[k]));
+    max = fmax(max, fabs(a[k]));
   }
-  return most > 0 ? change / most : change;
+  return max > 0 ? change / max : change;
 }
 
 /* G from cosines and r³. */
@@ -329,16 +329,16 @@ START_TEST(powers_of_two_change_no_bit) {
   for (int k = test_count(6); k > 0; k--) {
     draw_room(&s, _i);
     answer one = solve(painted(&s.plan, NULL, NULL), 1, k == 1 && _i < SMALL);
-    double least = HUGE_VAL;
+    double min = HUGE_VAL;
     for (size_t m = 0; m < one.patches * one.patches; m++)
-      if (one.area[m] > 0) least = fmin(least, one.area[m]);
+      if (one.area[m] > 0) min = fmin(min, one.area[m]);
     for (size_t m = 0; m < s.plan.walls; m++) {
       const hr2d_segment w = s.plan.wall[m];
       const double c[] = {w.a.x, w.a.y, w.b.x, w.b.y};
       for (int n = 0; n < 4; n++)
-        if (c[n] != 0) least = fmin(least, fabs(c[n]));
+        if (c[n] != 0) min = fmin(min, fabs(c[n]));
     }
-    const int low = -1021 - ilogb(least), range = 1022 - low;
+    const int low = -1021 - ilogb(min), range = 1022 - low;
     const int exponents[] = {low, 1022 - 1, low + random_below(&s.r, range)};
     for (int e = 0; e < 3; e++) {
       plan scaled = {.walls = 0};

@@ -458,8 +458,8 @@ START_TEST(narrow_wedges_at_all_orders) {
 END_TEST
 
 START_TEST(targets_in_narrow_wedges) {
-  const double least = test_multiplier() < 0.1 ? .003 : 1e-4;
-  for (double height = .3; height >= least; height /= 10)
+  const double min = test_multiplier() < 0.1 ? .003 : 1e-4;
+  for (double height = .3; height >= min; height /= 10)
     for (int k = 3; k <= 15; k += 4) {
       const double corner[][2] = {{0, 0}, {1, 0}, {1, height}};
       const hard_room room = hard_polygon("wedge", corner, 3, 0, 1 - pow(10, -k));

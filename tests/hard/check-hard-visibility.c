@@ -425,7 +425,7 @@ START_TEST(plates_are_apart_or_refused) {
   randoms r = randoms_stream(test_seed(), 6400);
   int fine = 0, refused = 0;
   row_error worst = {0};
-  double textbook = 0, least = 1;
+  double textbook = 0, min = 1;
   for (int k = test_count(3000); k > 0; k--) {
     const double gap = k % 4 ? random_power(&r, -16.5, -13) : ldexp(k % 32, -53);
     plan p = plates(&r, gap, random_below(&r, 3));
@@ -442,14 +442,14 @@ START_TEST(plates_are_apart_or_refused) {
       worst_row(&t, 0, &worst);
       textbook = fmax(textbook, shadow_rays(t.at[4], t.at[6], NULL, 0, 32) +
                                     shadow_rays(t.at[4], t.at[7], NULL, 0, 32));
-      least = fmin(least, gap);
+      min = fmin(min, gap);
       close_room(&t);
       fine++;
     }
     plan_free(&p);
   }
-  printf("plates: %d fine, least gap %.2e, worst row %.2e; %d refused; rays %.2g\n", fine,
-         least, worst.absolute, refused, textbook);
+  printf("plates: %d fine, least gap %.2e, worst row %.2e; %d refused; rays %.2g\n", fine, min,
+         worst.absolute, refused, textbook);
   ck_assert_int_gt(fine, 0);
   ck_assert_int_gt(refused, 0);
   ck_assert_double_gt(textbook, 1e3);

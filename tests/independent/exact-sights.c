@@ -39,7 +39,7 @@ typedef struct meeting {
   int forward; /* leaves from the left of the wall */
 } meeting;
 
-typedef struct sights {
+typedef struct classes {
   wall *wall;
   size_t walls;
   end *end;
@@ -50,16 +50,16 @@ typedef struct sights {
   hr2d_point direction;
   unsigned char *sees;
   size_t n;
-} sights;
+} classes;
 
-static int number_of(sights *s, hr2d_point p) {
+static int number_of(classes *s, hr2d_point p) {
   int k = 0;
   while (k < s->ends && !plane_same(s->end[k].at, p)) k++;
   if (k == s->ends) s->end[s->ends++].at = p;
   return k;
 }
 
-static void add_patch(sights *s, hr2d_segment at, size_t patch) {
+static void add_patch(classes *s, hr2d_segment at, size_t patch) {
   for (size_t k = 0; k < s->walls; k++) {
     wall *w = &s->wall[k];
     const int same = plane_same(w->at.a, at.a) && plane_same(w->at.b, at.b);
@@ -73,7 +73,7 @@ static void add_patch(sights *s, hr2d_segment at, size_t patch) {
 }
 
 /* Lays the line through p and q; 0 if two ends before these have done so. */
-static int lay_line(sights *s, int p, int q) {
+static int lay_line(classes *s, int p, int q) {
   const hr2d_point a = s->end[p].at, b = s->end[q].at;
   s->direction = (hr2d_point){b.x - a.x, b.y - a.y};
   s->count = 0;
@@ -93,7 +93,7 @@ static int lay_line(sights *s, int p, int q) {
 }
 
 /* A wall on the line is met in the gap between two ends on it, where nothing else is. */
-static meeting meet_in_gap(const sights *s, const wall *w) {
+static meeting meet_in_gap(const classes *s, const wall *w) {
   int place = 1;
   while (s->end[s->on[place]].side == s->end[s->on[place - 1]].side) place++;
   return (meeting){.along = s->end[s->on[place]].along + s->end[s->on[place - 1]].along,
@@ -103,7 +103,7 @@ static meeting meet_in_gap(const sights *s, const wall *w) {
                    .forward = s->end[w->from].side > 0};
 }
 
-static meeting meet(const sights *s, const wall *w) {
+static meeting meet(const classes *s, const wall *w) {
   const end *a = &s->end[w->from], *b = &s->end[w->to];
   if (a->det == 0 && b->det == 0) return meet_in_gap(s, w);
   const double sign = b->det > a->det ? 1 : -1;
@@ -128,7 +128,7 @@ static int by_place(const void *left, const void *right) {
 }
 
 /* One class of lines, in both directions. */
-static void look(sights *s) {
+static void look(classes *s) {
   size_t count = 0;
   for (size_t k = 0; k < s->walls; k++)
     if (s->end[s->wall[k].from].side != s->end[s->wall[k].to].side)
@@ -143,7 +143,7 @@ static void look(sights *s) {
   }
 }
 
-static void look_around(sights *s) {
+static void look_around(classes *s) {
   for (int cut = 0; cut < s->count; cut++)
     for (int side = -1; side <= 1; side += 2) {
       for (int k = 0; k < s->count; k++) s->end[s->on[k]].side = k < cut ? side : -side;
@@ -152,12 +152,12 @@ static void look_around(sights *s) {
 }
 
 void exact_sights(const hr2d_segment *patch, size_t n, unsigned char *sees) {
-  sights s = {.wall = malloc(n * sizeof *s.wall),
-              .end = malloc(2 * n * sizeof *s.end),
-              .on = malloc(2 * n * sizeof *s.on),
-              .met = malloc(n * sizeof *s.met),
-              .sees = sees,
-              .n = n};
+  classes s = {.wall = malloc(n * sizeof *s.wall),
+               .end = malloc(2 * n * sizeof *s.end),
+               .on = malloc(2 * n * sizeof *s.on),
+               .met = malloc(n * sizeof *s.met),
+               .sees = sees,
+               .n = n};
   ck_assert(s.wall != NULL && s.end != NULL && s.on != NULL && s.met != NULL);
   for (size_t k = 0; k < n * n; k++) sees[k] = 0;
   for (size_t k = 0; k < n; k++) add_patch(&s, patch[k], k);

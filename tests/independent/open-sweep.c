@@ -31,14 +31,14 @@ static size_t behind(const sweep_patches *p, size_t patch) {
 /* The nearest patch in a direction. */
 static size_t nearest(const sweep_patches *p, spot x, real angle) {
   const spot ray = {cosl(angle), sinl(angle)};
-  real least = HUGE_VALL;
+  real min = HUGE_VALL;
   size_t seen = SWEEP_SKY;
   for (size_t k = 0; k < p->count; k++) {
     const spot a = end_of(p, k, 0, x), b = end_of(p, k, 1, x), d = {b.x - a.x, b.y - a.y};
     if ((sweep_cross(ray, a) > 0) == (sweep_cross(ray, b) > 0)) continue;
     const real far = sweep_cross(a, d) / sweep_cross(ray, d);
-    if (!(far > 0 && far < least)) continue;
-    least = far;
+    if (!(far > 0 && far < min)) continue;
+    min = far;
     seen = sweep_cross(a, b) > 0 ? k : behind(p, k);
   }
   return seen;
@@ -73,11 +73,11 @@ real open_sweep_place(const sweep_patches *p, size_t patch, spot x, real angle) 
 }
 
 real open_sweep_clearance(const sweep_patches *p, spot x) {
-  real least = HUGE_VALL;
+  real min = HUGE_VALL;
   for (size_t k = 0; k < p->count; k++) {
     const spot a = end_of(p, k, 0, x), b = end_of(p, k, 1, x), d = {b.x - a.x, b.y - a.y};
     const real t = fminl(fmaxl(-(a.x * d.x + a.y * d.y) / (d.x * d.x + d.y * d.y), 0), 1);
-    least = fminl(least, hypotl(a.x + t * d.x, a.y + t * d.y));
+    min = fminl(min, hypotl(a.x + t * d.x, a.y + t * d.y));
   }
-  return least;
+  return min;
 }

@@ -42,10 +42,10 @@ typedef struct shade {
 } shade;
 
 static real largest(const sweep_patches *p) {
-  real most = 0;
+  real max = 0;
   for (size_t k = 0; k < p->count; k++)
-    for (int c = 0; c < 4; c++) most = fmaxl(most, fabsl((real)p->at[k][c]));
-  return most;
+    for (int c = 0; c < 4; c++) max = fmaxl(max, fabsl((real)p->at[k][c]));
+  return max;
 }
 
 /* The direction of a, or of the point where ab meets the horizon. */
@@ -87,15 +87,15 @@ static size_t twin_of(const sweep_patches *p, size_t patch) {
 /* The nearest patch in a direction. */
 static size_t nearest(const sweep_patches *p, const shade *s, size_t count, real angle) {
   const spot ray = {sinl(angle), cosl(angle)};
-  real least = HUGE_VALL;
+  real min = HUGE_VALL;
   size_t seen = SWEEP_SKY;
   for (size_t k = 0; k < count; k++) {
     if (!(s[k].low < angle && angle < s[k].high)) continue;
     const spot d = {s[k].b.x - s[k].a.x, s[k].b.y - s[k].a.y};
     const real facing = sweep_cross(s[k].a, s[k].b);
     const real far = facing / sweep_cross(ray, d);
-    if (!(far < least)) continue;
-    least = far;
+    if (!(far < min)) continue;
+    min = far;
     seen = facing > 0 ? s[k].patch : twin_of(p, s[k].patch);
   }
   return seen;
@@ -202,13 +202,13 @@ static real distance(spot a, spot b, spot p) {
 real sweep_clearance(const sweep_patches *p, size_t patch, real from, real to) {
   const spot a = sweep_place(p, patch, from), b = sweep_place(p, patch, to);
   const real touching = 1e-15L * largest(p);
-  real least = HUGE_VALL;
+  real min = HUGE_VALL;
   for (size_t k = 0; k < p->count; k++) {
     const spot c = sweep_place(p, k, 0), d = sweep_place(p, k, 1);
     const real far[] = {distance(a, b, c), distance(a, b, d), distance(c, d, a),
                         distance(c, d, b)};
     for (int q = 0; q < 4; q++)
-      if (far[q] > touching && (q < 2 || k != patch)) least = fminl(least, far[q]);
+      if (far[q] > touching && (q < 2 || k != patch)) min = fminl(min, far[q]);
   }
-  return least;
+  return min;
 }

@@ -52,17 +52,17 @@ static void find_values(const swept_solution *s, size_t patch, real from, real t
 /* How far the polynomial of a panel is from H on one half of it, relative to the scale. */
 static double miss(const swept_solution *s, const values *whole, const values *half,
                    int second) {
-  double most = 0;
+  double max = 0;
   for (size_t k = 0; k < s->field.rule.count; k++) {
     double value[MOST_POINTS];
     sweep_interpolate(&s->field.rule, (s->field.rule.at[k] + (second ? 1 : -1)) / 2, value);
     for (size_t b = 0; b < s->field.scene->bands; b++) {
       double sum = 0;
       for (size_t m = 0; m < s->field.rule.count; m++) sum += value[m] * whole->at[m][b];
-      most = fmax(most, fabs(sum - half->at[k][b]) / s->scale[b]);
+      max = fmax(max, fabs(sum - half->at[k][b]) / s->scale[b]);
     }
   }
-  return most;
+  return max;
 }
 
 /* A pass over the panels that H asks for. */
@@ -173,7 +173,7 @@ static mesh make_mesh(const swept_solution *s, double tolerance) {
 /* B = E + ρH by Gauss and Seidel. */
 static double sweep_nodes(swept_solution *s, const double *matrix, const double *rest) {
   const size_t n = s->field.mesh.nodes, bands = s->field.scene->bands;
-  double most = 0;
+  double max = 0;
   for (size_t i = 0; i < n; i++) {
     const swept_light *light = &s->field.scene->light[s->field.mesh.node[i].patch];
     double sum[SWEPT_BANDS] = {0};
@@ -184,11 +184,11 @@ static double sweep_nodes(swept_solution *s, const double *matrix, const double 
       const double h = sum[b] + rest[i * bands + b];
       const double value = light->emission[b] + light->reflectance[b] * h;
       double *is = &s->field.mesh.radiosity[i * bands + b];
-      most = fmax(most, fabs(value - *is) / s->scale[b]);
+      max = fmax(max, fabs(value - *is) / s->scale[b]);
       *is = value;
     }
   }
-  return most;
+  return max;
 }
 
 /* Until a round changes little, or no less than the round before: roundings are left. */
@@ -243,10 +243,9 @@ static void prepare(swept_solution *s) {
 static void find_scale(swept_solution *s) {
   const size_t nodes = s->field.mesh.nodes, bands = s->field.scene->bands;
   for (size_t b = 0; b < bands; b++) {
-    double most = 0;
-    for (size_t k = 0; k < nodes; k++)
-      most = fmax(most, s->field.mesh.radiosity[k * bands + b]);
-    if (most > 0) s->scale[b] = fmin(s->scale[b], most);
+    double max = 0;
+    for (size_t k = 0; k < nodes; k++) max = fmax(max, s->field.mesh.radiosity[k * bands + b]);
+    if (max > 0) s->scale[b] = fmin(s->scale[b], max);
   }
 }
 

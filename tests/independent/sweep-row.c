@@ -44,17 +44,17 @@ int sweep_reflects(const swept_scene *s, size_t patch) {
 }
 
 /* A panel as a point sees it. */
-typedef struct sight {
+typedef struct line_class {
   const sweep_frame *f;
   const panel *panel;
   spot a, d; /* the start of its patch and the vector to the end, local */
   real pole; /* the direction along the patch */
   double *row;
-} sight;
+} line_class;
 
 /* ½ ∫ cosθ B dθ by a rule, where θ leads to the place t = a×e/(e×d) of the patch, e the
    direction: a tangent, whose pole is a whole interval away. */
-static void add_directions(const sweep_field *s, const sight *v, real low, real high) {
+static void add_directions(const sweep_field *s, const line_class *v, real low, real high) {
   const real middle = (low + high) / 2, half = (high - low) / 2;
   for (size_t q = 0; q < s->near.count; q++) {
     const real angle = middle + half * s->near.at[q];
@@ -69,7 +69,7 @@ static void add_directions(const sweep_field *s, const sight *v, real low, real 
   }
 }
 
-static void add_part(const sweep_field *s, const sight *v, real low, real high) {
+static void add_part(const sweep_field *s, const line_class *v, real low, real high) {
   const real from_pole = fminl(fabsl(sinl(low - v->pole)), fabsl(sinl(high - v->pole)));
   if (high - low <= from_pole || high - low < 1e-13L) {
     add_directions(s, v, low, high);
@@ -81,7 +81,7 @@ static void add_part(const sweep_field *s, const sight *v, real low, real high) 
 }
 
 /* All of a panel at which B and the kernel are smooth: at its nodes. */
-static void add_far(const sweep_field *s, const sight *v) {
+static void add_far(const sweep_field *s, const line_class *v) {
   const double ux = (double)v->f->along.x, uy = (double)v->f->along.y;
   for (size_t k = v->panel->node; k < v->panel->node + s->rule.count; k++) {
     const node *n = &s->mesh.node[k];
@@ -105,7 +105,7 @@ static int is_far(spot from, spot to) {
 
 /* The direction of a place of the patch, or of the patch at the horizon. A patch turns from
    high angles to low ones where its front is seen. */
-static real direction(const sight *v, spot place) {
+static real direction(const line_class *v, spot place) {
   if (place.y > 0) return sweep_angle(place);
   return v->d.y > 0 ? HUGE_VALL : -HUGE_VALL;
 }
@@ -116,7 +116,7 @@ static void add_mirror(const sweep_field *s, const sweep_frame *f, const sweep_s
   const size_t patch = span->seen;
   const spot a = sweep_local(f, sweep_place(p, patch, 0));
   const spot b = sweep_local(f, sweep_place(p, patch, 1));
-  sight v = {.f = f, .a = a, .d = {b.x - a.x, b.y - a.y}, .row = row};
+  line_class v = {.f = f, .a = a, .d = {b.x - a.x, b.y - a.y}, .row = row};
   v.pole = sweep_angle(v.d);
   spot from = a;
   real high = direction(&v, from);
@@ -124,13 +124,13 @@ static void add_mirror(const sweep_field *s, const sweep_frame *f, const sweep_s
     v.panel = &s->mesh.panel[k];
     const spot to = sweep_local(f, sweep_place(p, patch, v.panel->to));
     const real low = direction(&v, to);
-    const real least = fmaxl(low, span->low), most = fminl(high, span->high);
+    const real min = fmaxl(low, span->low), max = fminl(high, span->high);
     const int whole = low >= span->low - 1e-17L && high <= span->high + 1e-17L;
-    if (most > least) {
+    if (max > min) {
       if (whole && is_far(from, to))
         add_far(s, &v);
       else
-        add_part(s, &v, least, most);
+        add_part(s, &v, min, max);
     }
     from = to;
     high = low;

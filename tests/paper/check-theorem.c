@@ -54,11 +54,11 @@ enum { OCTAVES = 6, MOST_PHASES = 8, MOST_ROWS = 11 * MOST_PHASES };
 /* Results of fits to rows with ε = 2^-(octave + phase/phases).  N grows in steps, so that
    several dots share an N; dots of one phase do not. */
 typedef struct growth {
-  double least_slope, most_slope; /* of log L on log N, over the phases */
-  double certainty;  /* c by its standard error in a + bN + cN², the least of them */
-  double c, c_error; /* in the polynomial through the dots of all phases */
-  double trend;      /* see fit_law() */
-  double span;       /* largest L over smallest */
+  double min_slope, max_slope; /* of log L on log N, over the phases */
+  double certainty;            /* c by its standard error in a + bN + cN², the least of them */
+  double c, c_error;           /* in the polynomial through the dots of all phases */
+  double trend;                /* see fit_law() */
+  double span;                 /* largest L over smallest */
 } growth;
 
 /* Least squares of y on 1, x, x²: a coefficient and its standard error. */
@@ -83,11 +83,11 @@ static void fit_square(const double *x, const double *y, size_t n, double *q, do
 /* c of a + bN + cN², with N and L scaled to at most 1. */
 static double fit_polynomial(const double *n, const double *l, size_t count, size_t stride,
                              double *error) {
-  double u[MOST_ROWS], v[MOST_ROWS], most = 0, c;
-  for (size_t k = 0; k < count; k++) most = fmax(most, n[k * stride]);
+  double u[MOST_ROWS], v[MOST_ROWS], max = 0, c;
+  for (size_t k = 0; k < count; k++) max = fmax(max, n[k * stride]);
   for (size_t k = 0; k < count; k++) {
-    u[k] = n[k * stride] / most;
-    v[k] = l[k * stride] / most / most;
+    u[k] = n[k * stride] / max;
+    v[k] = l[k * stride] / max / max;
   }
   fit_square(u, v, count, &c, error);
   return c;
@@ -99,7 +99,7 @@ static double fit_polynomial(const double *n, const double *l, size_t count, siz
 static growth fit_law(const double *n, const double *l, size_t octaves, size_t phases) {
   const size_t rows = octaves * phases;
   double x[MOST_ROWS], y[MOST_ROWS], mean = 0, low = l[0], high = l[0], q, error;
-  growth law = {.least_slope = HUGE_VAL, .most_slope = -HUGE_VAL, .certainty = HUGE_VAL};
+  growth law = {.min_slope = HUGE_VAL, .max_slope = -HUGE_VAL, .certainty = HUGE_VAL};
   for (size_t k = 0; k < rows; k++) {
     x[k] = log(n[k]);
     y[k] = log(l[k]);
@@ -111,8 +111,8 @@ static growth fit_law(const double *n, const double *l, size_t octaves, size_t p
     double c0, slope, c00, c01, c11, squares;
     gsl_fit_linear(x + k, phases, y + k, phases, octaves, &c0, &slope, &c00, &c01, &c11,
                    &squares);
-    law.least_slope = fmin(law.least_slope, slope);
-    law.most_slope = fmax(law.most_slope, slope);
+    law.min_slope = fmin(law.min_slope, slope);
+    law.max_slope = fmax(law.max_slope, slope);
     q = fit_polynomial(n + k, l + k, octaves, phases, &error);
     law.certainty = fmin(law.certainty, q / error);
   }
@@ -127,15 +127,15 @@ static growth fit_law(const double *n, const double *l, size_t octaves, size_t p
 /* What "grows quadratically" is taken to mean, over three decades of L at least.  A t
    of 22 with 6 dots and 3 coefficients comes by chance once in 10⁴ times. */
 static int is_quadratic(const growth *law) {
-  return law->least_slope >= 1.95 && law->most_slope <= 2.05 && law->certainty > 22 &&
+  return law->min_slope >= 1.95 && law->max_slope <= 2.05 && law->certainty > 22 &&
          fabs(law->trend) < 3 && law->span >= 1000;
 }
 
 static void print_law(const char *what, const growth *law) {
   printf("%-26s slopes %.4f..%.4f, c by %.3g errors, of all dots %.3g ± %.1g, trend t = %.2f, "
          "L over %.0f\n",
-         what, law->least_slope, law->most_slope, law->certainty, law->c, law->c_error,
-         law->trend, law->span);
+         what, law->min_slope, law->max_slope, law->certainty, law->c, law->c_error, law->trend,
+         law->span);
   fflush(stdout);
 }
 
@@ -222,8 +222,8 @@ START_TEST(links_are_quadratic_for_the_exact_oracle) {
     sweep(four_scenes[k], hr2d_oracle_l1(), 0, &d);
     const growth law = fit_law(d.n, d.l, OCTAVES, phases());
     print_law(what, &law);
-    ck_assert_double_ge(law.least_slope, k == 0 ? 1.8 : 1.95);
-    ck_assert_double_le(law.most_slope, 2.05);
+    ck_assert_double_ge(law.min_slope, k == 0 ? 1.8 : 1.95);
+    ck_assert_double_le(law.max_slope, 2.05);
     ck_assert_double_gt(law.certainty, 22);
     ck_assert_double_lt(fabs(law.trend), 3);
     ck_assert_double_ge(law.span, 1000);
@@ -249,8 +249,8 @@ START_TEST(links_are_linear_for_a_fixed_epsilon) {
     const size_t skip = 2 * FIXED_PHASES; /* g < 8: patches too short for their neighbours */
     const growth law = fit_law(n + skip, l + skip, FIXED_OCTAVES - 2, FIXED_PHASES);
     print_law(modified ? "fixed ε, modified" : "fixed ε, original", &law);
-    ck_assert_double_ge(law.least_slope, 0.95);
-    ck_assert_double_le(law.most_slope, 1.1);
+    ck_assert_double_ge(law.min_slope, 0.95);
+    ck_assert_double_le(law.max_slope, 1.1);
     ck_assert_double_ge(law.span, 1000);
     ck_assert_double_lt(law.certainty, 22);
     ck_assert_double_lt(law.c, 4 * law.c_error);
@@ -289,7 +289,7 @@ END_TEST
    N = 2(2 N_leaf − 1), N_leaf = l/A_leaf gives 4g/ε − 2 ≤ N < 8g/ε − 2. */
 START_TEST(elements_are_g_over_epsilon) {
   unsigned long state = test_seed();
-  double least = HUGE_VAL, most = 0, low = HUGE_VAL, high = 0;
+  double min = HUGE_VAL, max = 0, low = HUGE_VAL, high = 0;
   for (int k = 0; k < (int)test_rounds(400, 20); k++) {
     const double g = pow(2, 10 * test_random(&state)), d = pow(10, 6 * test_random(&state) - 3);
     const double epsilon = g * pow(2, -11 * test_random(&state));
@@ -307,13 +307,13 @@ START_TEST(elements_are_g_over_epsilon) {
     for (uint64_t e = 0; e < c.elements; e++)
       if (!element[e].child)
         ck_assert(0.5 * limit < element[e].length && element[e].length <= limit);
-    least = fmin(least, n * epsilon / g);
-    most = fmax(most, n * epsilon / g);
+    min = fmin(min, n * epsilon / g);
+    max = fmax(max, n * epsilon / g);
     low = fmin(low, g / epsilon);
     high = fmax(high, g / epsilon);
     test_free_links(&t);
   }
-  printf("g/ε from %.3g to %.3g: N ε/g from %.3f to %.3f\n", low, high, least, most);
+  printf("g/ε from %.3g to %.3g: N ε/g from %.3f to %.3f\n", low, high, min, max);
   ck_assert_double_gt(high / low, test_multiplier() < 0.5 ? 100 : 1000);
   /* Where ε ≥ g nothing is refused, and N stays 2. */
   ck_assert_uint_eq(count(facing(1, 1, 4), NULL, 1, 0.25).elements, 2);
@@ -326,7 +326,7 @@ END_TEST
    the power of 2 in (g/2, g]; links between facing pieces, of length l' in [d,2d), have
    A² ≤ ε²r² ≤ ε²(d² + l'²) and cover l'² each: L ≥ K/(2ε²) ≥ g/(4ε²) > N/(32ε). */
 START_TEST(links_are_elements_over_epsilon) {
-  double least = HUGE_VAL, most = 0;
+  double min = HUGE_VAL, max = 0;
   int pairs = 0;
   for (double g = 1; g <= 1024; g *= 1.7)
     for (double epsilon = 0.99; epsilon > 1. / 1024; epsilon *= 0.83) {
@@ -334,11 +334,11 @@ START_TEST(links_are_elements_over_epsilon) {
       const hr2d_refine_counts c = count(facing(g, g, 1), NULL, 1, epsilon);
       const double ratio = (double)c.links * epsilon / (double)c.elements;
       ck_assert(ratio > 1. / 32 && ratio <= 2 + 1.5 * epsilon);
-      least = fmin(least, ratio);
-      most = fmax(most, ratio);
+      min = fmin(min, ratio);
+      max = fmax(max, ratio);
       pairs++;
     }
-  printf("%d pairs of g and ε: L ε/N from %.3f to %.3f\n", pairs, least, most);
+  printf("%d pairs of g and ε: L ε/N from %.3f to %.3f\n", pairs, min, max);
   ck_assert_int_gt(pairs, 100);
   /* Patches far apart, g ≪ 1: all leaves see each other at one distance, L = N_leaf²,
      so that L ε/N falls like g.  The second equation needs a g bounded from below. */
@@ -547,13 +547,13 @@ END_TEST
    the middle of the other are at least A/4 away, max(A)/r ≤ 4 whatever their distance
    d, and the original stops at once, while the modified one goes on to A ≤ dε. */
 START_TEST(modified_costs_more_for_a_large_epsilon) {
-  for (double d = 0.1, least = 5; d >= 0.001; d /= 10, least *= 8) {
+  for (double d = 0.1, min = 5; d >= 0.001; d /= 10, min *= 8) {
     const hr2d_refine_counts original = count(facing(1, 1, d), NULL, 0, 4);
     ck_assert_uint_eq(original.links, 2);
     ck_assert_uint_eq(original.elements, 4);
     const cost c = cost_of(facing, 1, 1, d, 4);
     printf("ε = 4, distance %g: L by %g, N by %g\n", d, c.links, c.elements);
-    ck_assert_double_ge(c.links, least);
+    ck_assert_double_ge(c.links, min);
     ck_assert_double_gt(c.elements, 2);
   }
 }

@@ -57,15 +57,15 @@ static PetscErrorCode go_on(hr2dp *p, Vec b) {
   PetscFunctionBegin;
   hr2dp_report report = HR2DP_REPORT_INIT;
   Vec next;
-  PetscReal most, off;
+  PetscReal max, off;
   PetscCall(VecDuplicate(b, &next));
   PetscCall(VecCopy(b, next));
   PetscCall(hr2dp_solve(p, NULL, next, NULL, &report));
-  PetscCall(VecNorm(b, NORM_INFINITY, &most));
+  PetscCall(VecNorm(b, NORM_INFINITY, &max));
   PetscCall(VecAXPY(next, -1, b));
   PetscCall(VecNorm(next, NORM_INFINITY, &off));
-  PetscCheck(off <= 1e-12 * most, PETSC_COMM_WORLD, PETSC_ERR_PLIB, "B moves by %.1e",
-             off / most);
+  PetscCheck(off <= 1e-12 * max, PETSC_COMM_WORLD, PETSC_ERR_PLIB, "B moves by %.1e",
+             off / max);
   PetscCheck(report.iterations <= 2, PETSC_COMM_WORLD, PETSC_ERR_PLIB, "%d iterations",
              (int)report.iterations);
   PetscCall(VecDestroy(&next));

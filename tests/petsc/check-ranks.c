@@ -58,8 +58,9 @@ static void clear_alone(alone *a) {
   hr2d_hierarchy_destroy(a->hierarchy);
 }
 
-/* Which sights a further refinement cuts in one go depends on the links that stand side by
-   side, so that visibility tests are those of one process only for refinements from nothing. */
+/* Which line classes a further refinement cuts in one go depends on the links that stand side
+   by side, so that visibility tests are those of one process only for refinements from nothing.
+ */
 static int same_counts(const petsc_case *c, const hr2d_refine_counts *a,
                        const hr2d_refine_counts *b) {
   const uint64_t x[] = {a->elements,         a->leaves,         a->links,
@@ -88,7 +89,7 @@ static double compare_patch(const alone *a, uint32_t patch, const double **field
   const size_t bands = hr2d_scene_bands(hr2d_hierarchy_scene(a->hierarchy));
   uint32_t stack[1200];
   size_t depth = 0;
-  double most = 0, off = 0, from = 0;
+  double max = 0, off = 0, from = 0;
   stack[depth++] = patch;
   while (depth > 0) {
     const uint32_t e = stack[--depth];
@@ -103,12 +104,12 @@ static double compare_patch(const alone *a, uint32_t patch, const double **field
           irradiance ? hr2d_solution_irradiance_at(a->solution, patch, from + size / 2, b)
                      : hr2d_solution_element(a->solution, e, b);
       const double other = *(*field)++;
-      most = fmax(most, fabs(value));
+      max = fmax(max, fabs(value));
       off = isfinite(other) ? fmax(off, fabs(value - other)) : HUGE_VAL;
     }
     from += size;
   }
-  return most > 0 ? off / most : off;
+  return max > 0 ? off / max : off;
 }
 
 /* The largest one of all patches. */
@@ -139,13 +140,13 @@ static PetscErrorCode collect(Vec v, Vec *whole) {
 /* The largest difference of averages, relative to the largest average. */
 static double compare_averages(const alone *a, const hr2d_scene *scene, const double *average) {
   const size_t bands = hr2d_scene_bands(scene);
-  double most = 0, off = 0;
+  double max = 0, off = 0;
   for (size_t k = 0; k < hr2d_scene_patches(scene) * bands; k++) {
     const double value = hr2d_solution_average(a->solution, k / bands, k % bands);
-    most = fmax(most, fabs(value));
+    max = fmax(max, fabs(value));
     off = fmax(off, fabs(value - average[k]));
   }
-  return most > 0 ? off / most : off;
+  return max > 0 ? off / max : off;
 }
 
 /* Prints the line of a case; returns 1 if something is not as it is alone. */

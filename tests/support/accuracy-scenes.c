@@ -98,15 +98,15 @@ static void draw_shape(randoms *r, accuracy_scene *s) {
 }
 
 /* One reflectance for all walls, one for each, or none for some and the most for others. */
-static void draw_light(randoms *r, accuracy_scene *s, double most) {
+static void draw_light(randoms *r, accuracy_scene *s, double max) {
   const int mood = random_below(r, 4), dim = random_below(r, 4);
   s->bands = random_below(r, 3) ? 1 : 1 + (size_t)random_below(r, ACCURACY_BANDS);
   for (size_t b = 0; b < s->bands; b++) {
-    const double common = random_below(r, 2) ? most : most * random_unit(r);
+    const double common = random_below(r, 2) ? max : max * random_unit(r);
     for (size_t k = 0; k < s->plan.walls; k++) {
-      const double each = mood == 0 ? common : most * random_unit(r);
+      const double each = mood == 0 ? common : max * random_unit(r);
       const int kind = mood == 2 ? random_below(r, 3) : 2;
-      s->reflectance[k][b] = kind == 0 ? 0 : kind == 1 && k > 0 ? most : each;
+      s->reflectance[k][b] = kind == 0 ? 0 : kind == 1 && k > 0 ? max : each;
       s->emission[k][b] = dim && random_below(r, 3) ? 0 : random_unit(r);
     }
     s->emission[0][b] = random_between(r, .1, 1);
@@ -116,14 +116,14 @@ static void draw_light(randoms *r, accuracy_scene *s, double most) {
   for (size_t b = 0; b < s->bands; b++) s->background[b] = random_unit(r);
 }
 
-accuracy_scene accuracy_draw(uint64_t seed, int k, double most) {
+accuracy_scene accuracy_draw(uint64_t seed, int k, double max) {
   accuracy_scene s = {.bands = 1};
   randoms r = randoms_stream(seed, k);
   draw_shape(&r, &s);
   s.emission = calloc(s.plan.walls, sizeof *s.emission);
   s.reflectance = calloc(s.plan.walls, sizeof *s.reflectance);
   ck_assert(s.emission != NULL && s.reflectance != NULL);
-  draw_light(&r, &s, most);
+  draw_light(&r, &s, max);
   return s;
 }
 

@@ -22,8 +22,8 @@ typedef struct accuracy_scene {
 
 /* Scene number k of a seed: rooms with and without obstacles, open scenes, patches that
    touch at any angle or stand on each other; up to three bands; reflectances from 0 to
-   `most`, some of them equal to `most`. */
-accuracy_scene accuracy_draw(uint64_t seed, int k, double most);
+   `max`, some of them equal to `max`. */
+accuracy_scene accuracy_draw(uint64_t seed, int k, double max);
 void accuracy_free(accuracy_scene *s);
 
 /* The sources for which B = 1; black backs would be colder than all that. */

@@ -49,7 +49,7 @@ int accuracy_is_bounded(hr2d_error e, double error, double known, double roundin
   return error <= e.bound + known + rounding;
 }
 
-double accuracy_least_estimate(const hr2d_scene *scene, double target) {
+double accuracy_min_estimate(const hr2d_scene *scene, double target) {
   const int changes = hr2d_scene_effect(scene, HR2D_EFFECT_OCCLUSION, NULL) ||
                       hr2d_scene_effect(scene, HR2D_EFFECT_FACING, NULL) ||
                       hr2d_scene_effect(scene, HR2D_EFFECT_BACKGROUND, NULL);
@@ -57,10 +57,10 @@ double accuracy_least_estimate(const hr2d_scene *scene, double target) {
 }
 
 void accuracy_compare(accuracy_tally *t, hr2d_error e, double error, double known,
-                      double rounding, double least) {
+                      double rounding, double min) {
   if (!(error > rounding) || !(error > 10 * known)) return;
   t->compared++;
-  t->close += e.estimate >= 0.5 * error && e.estimate <= 2 * fmax(error, least);
+  t->close += e.estimate >= 0.5 * error && e.estimate <= 2 * fmax(error, min);
 }
 
 int accuracy_is_fair(const accuracy_tally *t) {

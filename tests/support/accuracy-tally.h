@@ -23,16 +23,16 @@ int accuracy_is_bounded(hr2d_error e, double error, double known, double roundin
 
 /* What an estimate has at least: that part of the target where views change, or 0; it is less
    where residuals are that small. */
-double accuracy_least_estimate(const hr2d_scene *scene, double target);
+double accuracy_min_estimate(const hr2d_scene *scene, double target);
 
 /* How many errors are above rounding, and for how many of them the estimate is at least half of
-   the error, and at most twice that or twice `least`. */
+   the error, and at most twice that or twice `min`. */
 typedef struct accuracy_tally {
   int compared, close;
 } accuracy_tally;
 
 void accuracy_compare(accuracy_tally *t, hr2d_error e, double error, double known,
-                      double rounding, double least);
+                      double rounding, double min);
 
 /* Whether 95 % of the estimates are close. */
 int accuracy_is_fair(const accuracy_tally *t);

@@ -38,20 +38,20 @@ int element_accepted(const hr2d_oracle *oracle, const hr2d_batch *batch, double 
 void element_draw(const pair_class *class, randoms *r, double x[8]) {
   const pair p = draw_pair(class, r);
   const hr2d_point point[4] = {p.i.a, p.i.b, p.j.a, p.j.b};
-  double most = DBL_TRUE_MIN;
-  for (int k = 0; k < 4; k++) most = fmax(most, fmax(fabs(point[k].x), fabs(point[k].y)));
+  double max = DBL_TRUE_MIN;
+  for (int k = 0; k < 4; k++) max = fmax(max, fmax(fabs(point[k].x), fabs(point[k].y)));
   for (int k = 0; k < 4; k++) {
-    x[2 * k] = ldexp(point[k].x, -ilogb(most));
-    x[2 * k + 1] = ldexp(point[k].y, -ilogb(most));
+    x[2 * k] = ldexp(point[k].x, -ilogb(max));
+    x[2 * k + 1] = ldexp(point[k].y, -ilogb(max));
   }
 }
 
 int element_in_range(const double *x, int count, int bits) {
-  double least = INFINITY, most = 0;
+  double min = INFINITY, max = 0;
   for (int k = 0; k < count; k++) {
     const double size = fabs(x[k]);
-    most = fmax(most, size);
-    if (size > 0) least = fmin(least, size);
+    max = fmax(max, size);
+    if (size > 0) min = fmin(min, size);
   }
-  return most < 2 && least >= ldexp(most, -bits);
+  return max < 2 && min >= ldexp(max, -bits);
 }

@@ -281,8 +281,8 @@ void fault_play(const fault_act *act) {
   uint64_t undisturbed;
   const long allocations = play_undisturbed(act, &undisturbed);
   const double multiplier = test_multiplier();
-  const double most = (act->most ? act->most : 400) * (multiplier < 1 ? multiplier : 1) + 1;
-  const double step = (double)allocations > most ? (double)allocations / most : 1;
+  const double max = (act->max ? act->max : 400) * (multiplier < 1 ? multiplier : 1) + 1;
+  const double step = (double)allocations > max ? (double)allocations / max : 1;
   long failures = 0;
   const double first = multiplier < 0.1 ? step / 2 : 0; /* the only one, perhaps */
   for (int for_good = 0; for_good < 2; for_good++)

@@ -73,7 +73,7 @@ typedef struct fault_act {
   fault_setting setting;
   hr2d_status (*call)(fault_stage *s, uint64_t *sum);
   const char *(*message)(const fault_stage *s); /* NULL: no object keeps one */
-  int most; /* allocations that are failed, at equal distances; 0: all */
+  int max; /* allocations that are failed, at equal distances; 0: all */
 } fault_act;
 
 /* Each allocation of the call fails once, and for good. */

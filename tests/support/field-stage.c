@@ -93,10 +93,10 @@ field_sample field_sample_sweep(const field_stage *s, double x, double y) {
                         dark ? HR2D_PLACE_OUTSIDE : HR2D_PLACE_BETWEEN};
 }
 
-double field_sample_distance(const field_sample *one, const field_sample *other, double most) {
+double field_sample_distance(const field_sample *one, const field_sample *other, double max) {
   if (isnan(one->mean) != isnan(other->mean)) return HUGE_VAL;
   const double shares = fmax(fabs(one->sky - other->sky), fabs(one->back - other->back));
   if (isnan(one->mean)) return shares;
   const double flux = hypot(one->flux[0] - other->flux[0], one->flux[1] - other->flux[1]);
-  return fmax(shares, fmax(fabs(one->mean - other->mean), flux) / most);
+  return fmax(shares, fmax(fabs(one->mean - other->mean), flux) / max);
 }

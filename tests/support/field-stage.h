@@ -32,7 +32,7 @@ field_sample field_sample_at(const hr2d_solution *solution, double x, double y);
 /* The same by the sweep, with one value of B for each patch. */
 field_sample field_sample_sweep(const field_stage *s, double x, double y);
 
-/* How much two samples differ, in units of `most`; infinite if one of them is not a number. */
-double field_sample_distance(const field_sample *one, const field_sample *other, double most);
+/* How much two samples differ, in units of `max`; infinite if one of them is not a number. */
+double field_sample_distance(const field_sample *one, const field_sample *other, double max);
 
 #endif

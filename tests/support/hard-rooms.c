@@ -143,14 +143,14 @@ hard_sweeps hard_gauss_seidel(const hard_room *room, hard_factors factors, size_
 #define SMALLEST 0x1p-10
 
 static double distance_to_others(const hard_room *room, size_t wall, double x, double y) {
-  double least = HUGE_VAL;
+  double min = HUGE_VAL;
   for (size_t k = 0; k < room->walls; k++) {
     const double *w = room->wall[k], dx = w[2] - w[0], dy = w[3] - w[1];
     const double t = ((x - w[0]) * dx + (y - w[1]) * dy) / (dx * dx + dy * dy);
     const double at = fmin(fmax(t, 0), 1);
-    if (k != wall) least = fmin(least, hypot(x - w[0] - at * dx, y - w[1] - at * dy));
+    if (k != wall) min = fmin(min, hypot(x - w[0] - at * dx, y - w[1] - at * dy));
   }
-  return least;
+  return min;
 }
 
 /* Elements as long as their distance from other walls, each cut into `parts`. */
@@ -201,8 +201,8 @@ static void conjugate_gradients(const mesh *m, const double *scale, const double
   memcpy(r, b, n * sizeof *r);
   memcpy(p, b, n * sizeof *p);
   double square = dot(n, r, r);
-  const double least = 1e-30 * square;
-  for (int k = 0; k < 5000 && square > least; k++) {
+  const double min = 1e-30 * square;
+  for (int k = 0; k < 5000 && square > min; k++) {
     apply(m, scale, diagonal, p, q);
     const double step = square / dot(n, p, q);
     for (size_t i = 0; i < n; i++) y[i] += step * p[i], r[i] -= step * q[i];
@@ -210,7 +210,7 @@ static void conjugate_gradients(const mesh *m, const double *scale, const double
     for (size_t i = 0; i < n; i++) p[i] = r[i] + next / square * p[i];
     square = next;
   }
-  ck_assert_double_le(square, least);
+  ck_assert_double_le(square, min);
   free(r);
 }
 

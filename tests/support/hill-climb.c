@@ -130,7 +130,7 @@ void hill_hold(const hill *h, hill_effort effort, int stream, double bound) {
   hill_assert(h, &top, bound);
 }
 
-void hill_exceed(const hill *h, hill_effort effort, int stream, double least) {
+void hill_exceed(const hill *h, hill_effort effort, int stream, double min) {
   const summit top = search(h, effort, stream);
-  ck_assert_msg(top.error >= least, "%s: %g is below %g", h->name, top.error, least);
+  ck_assert_msg(top.error >= min, "%s: %g is below %g", h->name, top.error, min);
 }

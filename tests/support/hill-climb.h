@@ -47,8 +47,8 @@ void hill_assert(const hill *hill, const summit *top, double bound);
 /* Both. */
 void hill_hold(const hill *hill, hill_effort effort, int stream, double bound);
 
-/* A negative control: asserts that the search finds an error of at least `least`.  The
+/* A negative control: asserts that the search finds an error of at least `min`.  The
    multiplier does not scale it, because fewer climbs may miss. */
-void hill_exceed(const hill *hill, hill_effort effort, int stream, double least);
+void hill_exceed(const hill *hill, hill_effort effort, int stream, double min);
 
 #endif

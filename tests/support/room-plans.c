@@ -122,13 +122,13 @@ void plan_fan(plan *p, int spokes) {
 }
 
 /* Corners on a circle, or nearer to its centre. */
-static int round_room(randoms *r, plan *p, hr2d_point *corner, double least) {
+static int round_room(randoms *r, plan *p, hr2d_point *corner, double min) {
   double angle[12];
   const int corners = 3 + random_below(r, 10);
   for (int k = 0; k < corners; k++) angle[k] = 2 * PI * (k + .8 * random_unit(r)) / corners;
   qsort(angle, (size_t)corners, sizeof *angle, order_doubles);
   for (int k = 0; k < corners; k++) {
-    const double radius = random_between(r, least, 1);
+    const double radius = random_between(r, min, 1);
     corner[k] = (hr2d_point){radius * cos(angle[k]), radius * sin(angle[k])};
   }
   polygon(p, corner, corners);
@@ -170,7 +170,7 @@ static void short_walls(randoms *r, int size, plan *p) {
 }
 
 /* Regular polygons with their fronts out. */
-static void obstacles(randoms *r, int size, plan *p, int sides, int most) {
+static void obstacles(randoms *r, int size, plan *p, int sides, int max) {
   double at[64][3];
   int placed = 0;
   plan_room(p, 1, 1);
@@ -183,7 +183,7 @@ static void obstacles(randoms *r, int size, plan *p, int sides, int most) {
     if (m < placed) continue;
     at[placed][0] = x, at[placed][1] = y, at[placed++][2] = radius;
     hr2d_point corner[64];
-    const int corners = sides + random_below(r, most - sides + 1);
+    const int corners = sides + random_below(r, max - sides + 1);
     const double first = random_between(r, 0, 2 * PI);
     for (int c = 0; c < corners; c++) {
       const double angle = first - 2 * PI * c / corners;

@@ -14,13 +14,13 @@ int test_count(double count) {
   return (int)fmin(fmax(ceil(count * test_multiplier()), 1), 1e9);
 }
 
-size_t test_rounds(double most, size_t least) {
-  return (size_t)(most * test_multiplier()) + least;
+size_t test_rounds(double max, size_t min) {
+  return (size_t)(max * test_multiplier()) + min;
 }
 
-size_t test_some(size_t all, size_t least) {
+size_t test_some(size_t all, size_t min) {
   const double some = ceil((double)all * fmin(10 * test_multiplier(), 1));
-  return (size_t)fmax(some, (double)least);
+  return (size_t)fmax(some, (double)min);
 }
 
 int test_meets(size_t number_of_case, size_t variant, size_t count) {

@@ -12,12 +12,12 @@ double test_multiplier(void);
 /* A number of random cases, scaled by the multiplier: from 1 to 10⁹. */
 int test_count(double count);
 
-/* At least `least` random cases, and `most` more at a multiplier of 1. */
-size_t test_rounds(double most, size_t least);
+/* At least `min` random cases, and `max` more at a multiplier of 1. */
+size_t test_rounds(double max, size_t min);
 
 /* Of `all` cases that `make check` has at its multiplier of 0.1: fewer in proportion below it,
-   and at least `least`. */
-size_t test_some(size_t all, size_t least);
+   and at least `min`. */
+size_t test_some(size_t all, size_t min);
 
 /* Whether a case meets variant number `variant` of `count`.  From a multiplier of 0.1 on it
    meets them all; below, one of them, and the next case the next one. */

@@ -26,10 +26,10 @@ static double on_grid(draft *d, double low, double high) {
 }
 
 /* A grey that reflects up to a part of the light, or nothing at all. */
-static material grey(draft *d, double most) {
+static material grey(draft *d, double max) {
   material m = black;
   for (int b = 0; b < 2; b++)
-    m.reflectance[b] = random_unit(&d->r) < 0.15 ? 0 : random_between(&d->r, 0.1, most);
+    m.reflectance[b] = random_unit(&d->r) < 0.15 ? 0 : random_between(&d->r, 0.1, max);
   return m;
 }
 

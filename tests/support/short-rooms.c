@@ -92,7 +92,7 @@ short_room short_room_draw(unsigned long seed, int k) {
       cut_corner(&o, &state);
   }
   short_room room = {.patches = o.count};
-  const double most = test_random(&state) < 0.2 ? 0.99 : 0.9;
+  const double max = test_random(&state) < 0.2 ? 0.99 : 0.9;
   size_t lamp = (size_t)(test_random(&state) * (double)o.count);
   for (size_t p = 0; p < o.count; p++) {
     const double *a = o.at[p], *b = o.at[(p + 1) % o.count];
@@ -102,7 +102,7 @@ short_room short_room_draw(unsigned long seed, int k) {
                              b[0],
                              b[1],
                              lit ? test_random(&state) + 0.01 : 0,
-                             test_random(&state) < 0.1 ? 0 : most * test_random(&state)};
+                             test_random(&state) < 0.1 ? 0 : max * test_random(&state)};
     for (int c = 0; c < 6; c++) room.patch[p][c] = patch[c];
   }
   return room;

@@ -82,13 +82,13 @@ static const char *side_fault(const hr2di_triangulation *t, uint32_t edge, int s
   const int32_t across = t->triangle[h >> 2].across[h & 3];
   if (across >= 0 || across == HR2DI_SKY) return "the triangle of an edge does not know it";
   const uint32_t known = (uint32_t)~across >> 1;
-  uint32_t turn = e->same, least = edge;
+  uint32_t turn = e->same, min = edge;
   for (size_t k = 0; turn != edge && k < t->edges && turn < t->edges; k++) {
-    if (turn < least) least = turn;
+    if (turn < min) min = turn;
     turn = t->edge[turn].same;
   }
   if (turn != edge) return "a ring of edges is broken";
-  if (known != least) return "the triangle of an edge knows another one";
+  if (known != min) return "the triangle of an edge knows another one";
   return t->edge[known].half_edge[~across & 1] == h ? NULL
                                                     : "an edge is known by its other side";
 }

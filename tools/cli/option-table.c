@@ -11,7 +11,7 @@ enum { MAX_LEVEL = 1000, MAX_THREADS = 1024, MAX_STEPS = 10000, MAX_CONTOURS = 3
 /* clang-format off */
 #define MEMBER(reader, m)     _Generic(((options *)0)->m, type_of_##reader: offsetof(options, m))
 #define VALUE(reader, m)      value_##reader, MEMBER(reader, m), {0, 0}
-#define WHOLE(m, least, most) value_unsigned, MEMBER(unsigned, m), {least, most}
+#define WHOLE(m, min, max) value_unsigned, MEMBER(unsigned, m), {min, max}
 #define COUNT(m)              value_count, MEMBER(count, m), {1, UINT64_MAX}
 
 enum { WITH_SCENE = INFO | SOLVE | STUDY | COST | FACTORS | FIELD, ALL = WITH_SCENE | PAIR };
@@ -164,7 +164,7 @@ static const option_entry table[] = {
    .help = {{SOLVE | STUDY, "give up beyond M links"}}},
   {"max-elements", "M", GROUP_WORK, COUNT(max_elements),
    .help = {{SOLVE | STUDY, "give up beyond M elements"}}},
-  {"max-seconds", "S", GROUP_WORK, VALUE(positive, max_seconds),
+  {"max-seconds", "S", GROUP_WORK, VALUE(positive, most_seconds),
    .help = {{COST, "for all methods together (10), in equal shares"}},
    .rules = NOT_WITH_PREDICT},
   {"threads", "T", GROUP_WORK, WHOLE(threads, 0, MAX_THREADS),

@@ -80,7 +80,7 @@ static options make_defaults(void) {
                    .max_level = HR2D_DEFAULT_MAX_LEVEL,
                    .order = 1,
                    .steps = 13,
-                   .max_seconds = 10,
+                   .most_seconds = 10,
                    .methods = (1U << METHOD_COUNT) - 1,
                    .against = {{AGAINST_SECONDS}, 1},
                    .link_level = NO_LEVEL,

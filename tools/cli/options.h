@@ -100,7 +100,7 @@ typedef struct options {
   double floor;          /* 0: not given */
   double enclose;        /* a gap; 0: not given */
   int error, no_error;   /* measure the error of any scene, of none */
-  double max_seconds;    /* of `cost` */
+  double most_seconds;   /* of `cost` */
   unsigned methods;      /* of `cost`, bit 1 << m for each method m */
   against_list against;
   int predict;

@@ -27,9 +27,9 @@ int value_positive(const char *option, char *text, value_range range, void *valu
 
 int value_count(const char *option, char *text, value_range range, void *value) {
   uint64_t *n = value;
-  if (number_count(text, range.most, n) || *n < range.least)
+  if (number_count(text, range.max, n) || *n < range.min)
     return complain_usage("--%s: '%s' is not a whole number from %llu to %llu", option, text,
-                          (unsigned long long)range.least, (unsigned long long)range.most);
+                          (unsigned long long)range.min, (unsigned long long)range.max);
   return 0;
 }
 
@@ -89,10 +89,10 @@ int value_grid(const char *option, char *text, value_range range, void *value) {
   char *rows = strchr(text, 'x');
   uint64_t w = 0, h = 0;
   if (rows) *rows++ = '\0';
-  if (!rows || number_count(text, range.most, &w) || number_count(rows, range.most, &h) || !w ||
+  if (!rows || number_count(text, range.max, &w) || number_count(rows, range.max, &h) || !w ||
       !h)
     return complain_usage("--%s: not WxH with whole numbers from 1 to %llu", option,
-                          (unsigned long long)range.most);
+                          (unsigned long long)range.max);
   *size = (grid_size){(unsigned)w, (unsigned)h};
   return 0;
 }

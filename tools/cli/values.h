@@ -9,7 +9,7 @@
 
 /* What a whole number may be. */
 typedef struct value_range {
-  uint64_t least, most;
+  uint64_t min, max;
 } value_range;
 
 /* Reads `text`, which it may split in place, into a value whose type depends on the reader.

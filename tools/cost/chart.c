@@ -31,7 +31,7 @@ typedef struct chart {
   against quantity;
   const cost_row *rows[MOST_ROWS]; /* those that are drawn, method after method */
   size_t row_count;
-  double worst, best, least, most; /* decades of error and of the quantity */
+  double worst, best, min, max; /* decades of error and of the quantity */
   curve curves[MOST_CURVES];
   size_t count;
 } chart;
@@ -92,19 +92,19 @@ static void choose_rows(chart *d) {
 }
 
 static void measure(chart *d) {
-  d->worst = d->most = -INFINITY;
-  d->best = d->least = INFINITY;
+  d->worst = d->max = -INFINITY;
+  d->best = d->min = INFINITY;
   for (size_t k = 0; k < d->row_count; k++) {
     const cost_row *row = d->rows[k];
     d->worst = fmax(d->worst, decade_of_error(d, row));
     d->best = fmin(d->best, decade_of_error(d, row));
-    d->most = fmax(d->most, decade_of_cost(d, row));
-    d->least = fmin(d->least, decade_of_cost(d, row));
+    d->max = fmax(d->max, decade_of_cost(d, row));
+    d->min = fmin(d->min, decade_of_cost(d, row));
   }
   d->worst = fmin(1, d->worst) + 0.2;
   d->best -= LABELS / (1 - LABELS) * (d->worst - d->best) + 0.2;
-  d->most += 0.5;
-  d->least -= 0.3;
+  d->max += 0.5;
+  d->min -= 0.3;
 }
 
 static void describe(const chart *d, curve *v) {
@@ -122,7 +122,7 @@ static void describe(const chart *d, curve *v) {
 
 static hr2d_point on_chart(const chart *d, const cost_row *row) {
   return (hr2d_point){(d->worst - decade_of_error(d, row)) / (d->worst - d->best),
-                      (decade_of_cost(d, row) - d->least) / (d->most - d->least)};
+                      (decade_of_cost(d, row) - d->min) / (d->max - d->min)};
 }
 
 static void find_curves(chart *d) {
@@ -205,7 +205,7 @@ static void write_axes(FILE *script, const chart *d) {
           "set logscale xy\nset xrange [%.17g:%.17g]\nset yrange [%.17g:%.17g]\n"
           "set xlabel \"relative error of average B\\n{/*0.8 a number s beside a curve: %s ∝ "
           "error^{−s}}\"\nset ylabel '%s'\n",
-          pow(10, d->worst), pow(10, d->best), pow(10, d->least), pow(10, d->most),
+          pow(10, d->worst), pow(10, d->best), pow(10, d->min), pow(10, d->max),
           name_of_against[d->quantity], name[d->quantity]);
   write_tics(script, d);
   fputs("set border 3 linecolor rgb '#404040'\nset grid linecolor rgb '#dcdcdc'\nunset key\n",

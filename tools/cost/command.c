@@ -45,7 +45,7 @@ static int run_methods(cost *c) {
   int status = 0;
   const cost_method *m;
   for (size_t k = 0; (m = cost_method_at(k)); k++) wanted += (unsigned)is_wanted(c, m);
-  c->share = c->options->max_seconds / wanted;
+  c->share = c->options->most_seconds / wanted;
   c->line.steps = wanted;
   for (size_t k = 0; (m = cost_method_at(k)) && status != EXIT_INTERRUPTED; k++) {
     if (!is_wanted(c, m)) continue;

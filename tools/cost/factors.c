@@ -216,15 +216,15 @@ hr2d_status cost_factors(cost *c, const cost_method *m) {
     return HR2D_EUNSUPPORTED;
   }
   cost_row row = {.bytes = 0};
-  size_t most = 0, images = 0;
+  size_t max = 0, images = 0;
   /* Half as long pieces have four times as many entries.  Where images go on for ever, very
      many pieces have fewer of them, and what is extrapolated from few is not of their accuracy.
    */
   while (pace_allows(&p) && length * PIECES_MOST >= 1 && 4 * row.bytes <= COST_MOST_BYTES) {
     const double start = clock_seconds();
     hr2d_status status = time_row(c, m, length, &row, &images);
-    if (!status && images < most) break;
-    most = images;
+    if (!status && images < max) break;
+    max = images;
     if (!status) status = cost_add(c, &row);
     if (status) return status;
     pace_note(&p, row.seconds, clock_seconds() - start);

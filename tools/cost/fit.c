@@ -23,13 +23,13 @@ static size_t collect(const cost *c, const cost_method *m, against quantity, dou
 
 /* Keeps the finer half of the digits: coarse runs take as long as any run takes at least. */
 static size_t keep_fine(double *digits, double *value, size_t count) {
-  double most = 0, least = INFINITY;
+  double max = 0, min = INFINITY;
   size_t kept = 0;
   for (size_t k = 0; k < count; k++) {
-    most = fmax(most, digits[k]);
-    least = fmin(least, digits[k]);
+    max = fmax(max, digits[k]);
+    min = fmin(min, digits[k]);
   }
-  const double middle = 0.5 * (most + least);
+  const double middle = 0.5 * (max + min);
   for (size_t k = 0; k < count; k++) kept += digits[k] >= middle;
   if (kept < LEAST) return count;
   kept = 0;
@@ -43,12 +43,12 @@ static size_t keep_fine(double *digits, double *value, size_t count) {
 
 /* A slope over less than a decade of error means nothing. */
 static int is_wide(const double *digits, size_t count) {
-  double most = -INFINITY, least = INFINITY;
+  double max = -INFINITY, min = INFINITY;
   for (size_t k = 0; k < count; k++) {
-    most = fmax(most, digits[k]);
-    least = fmin(least, digits[k]);
+    max = fmax(max, digits[k]);
+    min = fmin(min, digits[k]);
   }
-  return most - least >= 1;
+  return max - min >= 1;
 }
 
 static double line(const double *x, const double *y, size_t count) {

@@ -29,7 +29,7 @@ int cost_make_reference(cost *c) {
   const size_t patches = hr2d_scene_patches(c->scene), bands = hr2d_scene_bands(c->scene);
   hr2d_target target = make_target(c, REFERENCE_ERROR);
   hr2d_solution *solution = NULL;
-  target.seconds = c->options->max_seconds;
+  target.seconds = c->options->most_seconds;
   const hr2d_status status = hr2d_solve_to(c->scene, &target, &solution, &c->reference);
   progress_clear(&c->line);
   if (status && status != HR2D_EACCURACY) return complain_call(c->options->scene, "", status);
@@ -46,7 +46,7 @@ int cost_predict(cost *c) {
   const double start = clock_seconds();
   for (int k = 0; k < COST_PREDICTIONS; k++) {
     const hr2d_target target = make_target(c, cost_prediction_target(k));
-    if (!c->options->predict && clock_seconds() - start > 0.1 * c->options->max_seconds) break;
+    if (!c->options->predict && clock_seconds() - start > 0.1 * c->options->most_seconds) break;
     const hr2d_status status = hr2d_predict(c->scene, &target, &c->prediction[k]);
     progress_clear(&c->line);
     if (status) return complain_call(c->options->scene, "", status);

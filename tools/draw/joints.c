@@ -35,14 +35,14 @@ static double opening(const stroke *s, hr2d_point p, hr2d_point u, hr2d_point v)
 
 /* The smallest opening between stroke s and others at its end `at`; u is its other end. */
 static double smallest(const picture *p, const stroke *s, hr2d_point at, hr2d_point u) {
-  double least = TURN;
+  double min = TURN;
   for (size_t k = 0; k < hr2d_scene_patches(p->run->scene); k++) {
     const stroke *o = &p->strokes[k];
     if (o == s || joints_distance(at, o) > TOUCH) continue;
-    if (distance(at, o->a) > TOUCH) least = fmin(least, opening(s, at, u, o->a));
-    if (distance(at, o->b) > TOUCH) least = fmin(least, opening(s, at, u, o->b));
+    if (distance(at, o->a) > TOUCH) min = fmin(min, opening(s, at, u, o->a));
+    if (distance(at, o->b) > TOUCH) min = fmin(min, opening(s, at, u, o->b));
   }
-  return least;
+  return min;
 }
 
 /* The bisector divides an opening below 180° between two neighbours. */
@@ -63,15 +63,15 @@ static double ahead(hr2d_point q, const stroke *s) {
 /* The narrowest gap between a patch and the end of another one in front of it. */
 static double narrowest(const picture *p) {
   const size_t count = hr2d_scene_patches(p->run->scene);
-  double least = INFINITY;
+  double min = INFINITY;
   for (size_t i = 0; i < count; i++)
     for (size_t j = 0; j < count; j++) {
       const stroke *s = &p->strokes[i], *o = &p->strokes[j];
       if (i == j || joints_distance(s->a, o) < TOUCH || joints_distance(s->b, o) < TOUCH)
         continue;
-      least = fmin(least, fmin(ahead(o->a, s), ahead(o->b, s)));
+      min = fmin(min, fmin(ahead(o->a, s), ahead(o->b, s)));
     }
-  return least;
+  return min;
 }
 
 static double choose_band(const picture *p) {

@@ -81,12 +81,12 @@ static int is_free(const picture *p, const box *b) {
 }
 
 static double gap(const box *b, const stroke *s) {
-  double least = joints_distance((hr2d_point){b->x0, b->y0}, s);
+  double min = joints_distance((hr2d_point){b->x0, b->y0}, s);
   for (int k = 1; k < 6; k++) {
     const hr2d_point q = {b->x0 + (k / 2) * 0.5 * (b->x1 - b->x0), k % 2 ? b->y1 : b->y0};
-    least = fmin(least, joints_distance(q, s));
+    min = fmin(min, joints_distance(q, s));
   }
-  return least;
+  return min;
 }
 
 /* Whether no other patch is nearer to a name than its own. */
@@ -145,7 +145,7 @@ static void write_name(const picture *p, const char *name, const box *b) {
 }
 
 /* A name, cut with an ellipsis if it is too wide; the caller frees it. */
-static char *shorten(cairo_t *cr, const char *name, double most) {
+static char *shorten(cairo_t *cr, const char *name, double max) {
   static const char ellipsis[] = "…";
   /* So many bytes are wider than any label: 60 characters at least. */
   enum { WIDE = 240 };
@@ -154,7 +154,7 @@ static char *shorten(cairo_t *cr, const char *name, double most) {
   if (!text) return NULL;
   memcpy(text, name, size);
   text[size] = '\0';
-  for (size_t n = size; n && pen_text_width(cr, text) > most;) {
+  for (size_t n = size; n && pen_text_width(cr, text) > max;) {
     do n--;
     while (n && ((unsigned char)name[n] & 0xC0) == 0x80);
     memcpy(text + n, ellipsis, sizeof ellipsis);

@@ -162,12 +162,12 @@ static void set_page(picture *p, margins m) {
   const double aspect = p->size.x / p->size.y;
   p->flat = plain && aspect > FLAT;
   const double legend = p->flat ? 0 : LEGEND, foot = p->flat ? FLAT_FOOT : FOOT;
-  const double most = aspect * TALL < 1 ? MOST_TALL : MOST_SCENE;
-  p->scale = fmin((PAGE_WIDTH - m.left - m.right - legend) / p->size.x, most / p->size.y);
+  const double max = aspect * TALL < 1 ? MOST_TALL : MOST_SCENE;
+  p->scale = fmin((PAGE_WIDTH - m.left - m.right - legend) / p->size.x, max / p->size.y);
   const double width = m.left + p->size.x * p->scale + m.right + legend;
   const double height = TITLE + m.top + p->size.y * p->scale + m.bottom + foot;
-  const double least = fmax(title_width(p), p->run->options->arrows ? ARROW_KEY : 0);
-  p->width = plain ? ceil(fmin(PAGE_WIDTH, fmax(least, width))) : PAGE_WIDTH;
+  const double min = fmax(title_width(p), p->run->options->arrows ? ARROW_KEY : 0);
+  p->width = plain ? ceil(fmin(PAGE_WIDTH, fmax(min, width))) : PAGE_WIDTH;
   p->height = ceil(fmax(p->flat ? 0 : LEAST_HEIGHT, height));
   p->origin.x = m.left + 0.5 * (p->width - width);
   p->origin.y = p->height - foot - m.bottom - 0.5 * (p->height - height);

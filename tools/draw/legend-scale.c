@@ -137,8 +137,8 @@ static double draw_tick(const picture *p, const bar *b, double part, const char 
 static void draw_ticks(const picture *p, const bar *b) {
   ticks t;
   double free = 0;
-  const int most = b->level || b->length > 160 ? 6 : 4;
-  ticks_make(&t, p->rgb ? 0 : p->lo, p->rgb ? 1 / p->exposure : p->hi, p->logarithmic, most);
+  const int max = b->level || b->length > 160 ? 6 : 4;
+  ticks_make(&t, p->rgb ? 0 : p->lo, p->rgb ? 1 / p->exposure : p->hi, p->logarithmic, max);
   pen_font(p->cr, 10, 0);
   pen_grey(p->cr, 0.2);
   for (int k = 0; k < t.count; k++) {

@@ -45,14 +45,14 @@ void neighbours_measure(picture *p) {
   size_t kept = 0;
   if (!r->count) return;
   qsort(r->far, r->count, sizeof *r->far, along_patches);
-  r->least = INFINITY;
+  r->min = INFINITY;
   for (size_t k = 0; k < r->count; k++) {
     const hr2d_element *e = element(p, r->far[k].element);
     const double distance = separation(element(p, p->path[0])->centre, e->centre);
     if (kept && r->far[kept - 1].element == r->far[k].element) continue;
     r->far[kept++] = r->far[k];
-    r->least = fmin(r->least, distance);
-    r->most = fmax(r->most, distance);
+    r->min = fmin(r->min, distance);
+    r->max = fmax(r->max, distance);
     r->extent += e->length;
   }
   r->count = kept;
@@ -203,7 +203,7 @@ void neighbours_draw_key(const picture *p) {
     snprintf(text, sizeof text,
              "level %u: A = %.4g, %zu neighbours, D = %.4g = %.4g A, r = %.4g to %.4g",
              o->link_level, size * unit, r->count, r->extent * unit, r->extent / size,
-             r->least * unit, r->most * unit);
+             r->min * unit, r->max * unit);
   else
     snprintf(text, sizeof text, "level %u: A = %.4g, no neighbours", o->link_level,
              size * unit);

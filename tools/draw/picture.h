@@ -82,8 +82,8 @@ typedef struct neighbour {
 typedef struct region {
   neighbour *far;
   size_t count;
-  double least, most; /* distances of centres */
-  double extent;      /* total length */
+  double min, max; /* distances of centres */
+  double extent;   /* total length */
 } region;
 
 enum { MAX_NAMES = 24 };

@@ -86,23 +86,23 @@ static int take_sample(picture *p, sample *s) {
 
 /* On a linear scale the brightest places, beside lamps, have the colour of its end. */
 static void choose_linear(picture *p, const sample *s) {
-  const double most = fmax(p->hi, part_of(s, 1)), bright = part_of(s, BRIGHTEST);
+  const double max = fmax(p->hi, part_of(s, 1)), bright = part_of(s, BRIGHTEST);
   p->lo = fmin(p->lo, part_of(s, 0));
   if (p->quantity == QUANTITY_SKY) {
     p->lo = 0;
-    p->hi = most > 0.5 ? 1 : most;
+    p->hi = max > 0.5 ? 1 : max;
     return;
   }
   if (p->quantity != QUANTITY_TEMPERATURE && p->lo < 0.5 * bright) p->lo = 0;
-  p->hi = bright > p->lo && most - p->lo > 2 * (bright - p->lo) ? bright : most;
-  p->beyond = p->hi < most;
+  p->hi = bright > p->lo && max - p->lo > 2 * (bright - p->lo) ? bright : max;
+  p->beyond = p->hi < max;
 }
 
 /* Black patches have the colour of the lower end. */
 static void choose_logarithmic(picture *p, const sample *s) {
-  const double dark = part_of(s, DARKEST), least = p->lo > 0 ? p->lo : INFINITY;
+  const double dark = part_of(s, DARKEST), min = p->lo > 0 ? p->lo : INFINITY;
   p->hi = fmax(p->hi, part_of(s, 1));
-  p->lo = fmin(least, dark > 0 ? dark : INFINITY);
+  p->lo = fmin(min, dark > 0 ? dark : INFINITY);
   if (!(p->lo < p->hi)) p->lo = 1e-3 * p->hi;
   p->lo = fmax(p->lo, 1e-12 * p->hi);
   p->logarithmic = 1;

@@ -53,10 +53,10 @@ static void print_range(const char *title, const double range[2]) {
 }
 
 static void print_background(const hr2d_scene *scene) {
-  double most = 0;
+  double max = 0;
   for (size_t b = 0; b < hr2d_scene_bands(scene); b++)
-    most = fmax(most, hr2d_scene_background(scene, b));
-  if (!(most > 0)) return;
+    max = fmax(max, hr2d_scene_background(scene, b));
+  if (!(max > 0)) return;
   printf("background   ");
   for (size_t b = 0; b < hr2d_scene_bands(scene); b++)
     printf(" %.6g", hr2d_scene_background(scene, b));

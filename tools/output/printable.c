@@ -6,7 +6,7 @@
 /* The Unicode Standard, table 3-7: the bytes of each length, without overlong forms, surrogates
    and what is beyond U+10FFFF.  0 for no character. */
 static size_t decode(const unsigned char *s, unsigned long *code) {
-  static const unsigned long least[] = {0, 0, 0x80, 0x800, 0x10000};
+  static const unsigned long min[] = {0, 0, 0x80, 0x800, 0x10000};
   const size_t length = *s < 0x80 ? 1 : *s < 0xC2 ? 0 : *s < 0xE0 ? 2 : *s < 0xF0 ? 3 : 4;
   if (!length || *s > 0xF4) return 0;
   *code = length == 1 ? *s : *s & (0xFFu >> (length + 1));
@@ -14,7 +14,7 @@ static size_t decode(const unsigned char *s, unsigned long *code) {
     if ((s[k] & 0xC0) != 0x80) return 0;
     *code = *code << 6 | (s[k] & 0x3Fu);
   }
-  if (*code < least[length] || *code > 0x10FFFF) return 0;
+  if (*code < min[length] || *code > 0x10FFFF) return 0;
   return *code >= 0xD800 && *code < 0xE000 ? 0 : length;
 }
 

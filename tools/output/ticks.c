@@ -51,9 +51,9 @@ void ticks_label(const ticks *t, int k, char *text, size_t size) {
     snprintf(text, size, "%g", t->value[k]);
     return;
   }
-  const double most = fmax(fabs(t->value[0]), fabs(t->value[t->count - 1]));
+  const double max = fmax(fabs(t->value[0]), fabs(t->value[t->count - 1]));
   const int last = (int)floor(log10(t->step) + 1e-9);
-  const int first = most > 0 ? (int)floor(log10(most) + 1e-9) : last;
+  const int first = max > 0 ? (int)floor(log10(max) + 1e-9) : last;
   if (first >= 6 || last < -6)
     snprintf(text, size, "%.*e", first > last ? first - last : 0, t->value[k]);
   else

@@ -130,29 +130,29 @@ void run_release(run *r) {
 }
 
 int run_compare_shares(run *r) {
-  double most[] = {(double)hr2d_linkset_size(r->links), (double)run_peak_bytes(),
-                   (double)hr2d_linkset_own_tests(r->links)};
+  double max[] = {(double)hr2d_linkset_size(r->links), (double)run_peak_bytes(),
+                  (double)hr2d_linkset_own_tests(r->links)};
   if (!r->share) return 0;
-  if (r->share->combine(r->share->ctx, HR2D_OK, HR2D_COMBINE_MOST, most, 3))
+  if (r->share->combine(r->share->ctx, HR2D_OK, HR2D_COMBINE_MOST, max, 3))
     return complain(r->options->scene, "a share has failed");
-  r->most_links = (uint64_t)most[0];
-  r->most_bytes = (uint64_t)most[1];
-  r->most_tests = (uint64_t)most[2];
+  r->max_links = (uint64_t)max[0];
+  r->max_bytes = (uint64_t)max[1];
+  r->max_tests = (uint64_t)max[2];
   return 0;
 }
 
 int run_agree(const run *r, int status) {
-  double most = status;
+  double max = status;
   if (!r->share) return status;
   const hr2d_status failed =
-      r->share->combine(r->share->ctx, HR2D_OK, HR2D_COMBINE_MOST, &most, 1);
-  return failed ? EXIT_FAILED : (int)most;
+      r->share->combine(r->share->ctx, HR2D_OK, HR2D_COMBINE_MOST, &max, 1);
+  return failed ? EXIT_FAILED : (int)max;
 }
 
 double run_power_error(const hr2d_power *p) {
   /* Negative fluxes may leave less of what comes in than is absorbed. */
-  const double in = p->emitted + p->received, most = fmax(in, p->absorbed);
-  return most > 0 ? fabs(in - p->absorbed - p->escaped) / most : 0;
+  const double in = p->emitted + p->received, max = fmax(in, p->absorbed);
+  return max > 0 ? fabs(in - p->absorbed - p->escaped) / max : 0;
 }
 
 uint64_t run_peak_bytes(void) {

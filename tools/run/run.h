@@ -38,9 +38,9 @@ typedef struct run {
   const warnings *warnings; /* about the scene */
   const run_shares *shares; /* NULL: this process is alone */
   hr2d_share *share;        /* of this process; NULL likewise */
-  uint64_t most_links;      /* with shares: of the share that has most */
-  uint64_t most_tests;      /* likewise: tests of visibility */
-  uint64_t most_bytes;      /* likewise, at the peak */
+  uint64_t max_links;       /* with shares: of the share that has most */
+  uint64_t max_tests;       /* likewise: tests of visibility */
+  uint64_t max_bytes;       /* likewise, at the peak */
   const hr2d_hierarchy *hierarchy;
   const hr2d_linkset *links;
   hr2d_solution *solution;

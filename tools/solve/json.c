@@ -195,9 +195,9 @@ static void put_counts(json_t **root, const run *r, const hr2d_refine_counts *n)
 static json_t *ranks(const run *r) {
   json_t *object = json_object();
   json_put(&object, "count", json_count(r->share->count));
-  json_put(&object, "most_links", json_count(r->most_links));
-  json_put(&object, "most_visibility_tests", json_count(r->most_tests));
-  json_put(&object, "most_bytes", json_count(r->most_bytes));
+  json_put(&object, "most_links", json_count(r->max_links));
+  json_put(&object, "most_visibility_tests", json_count(r->max_tests));
+  json_put(&object, "most_bytes", json_count(r->max_bytes));
   return object;
 }
 

@@ -238,6 +238,6 @@ int solve_print(const run *r, double total_seconds) {
   printf("memory    %.1f MB at the peak\n", (double)run_peak_bytes() / 1e6);
   if (r->share)
     printf("ranks     %u, with at most %llu links and %.1f MB\n", r->share->count,
-           (unsigned long long)r->most_links, (double)r->most_bytes / 1e6);
+           (unsigned long long)r->max_links, (double)r->max_bytes / 1e6);
   return status;
 }

@@ -20,10 +20,10 @@ typedef struct axis {
   double divisor;
 } axis;
 
-static axis choose_axis(const char *quantity, double most, int logarithmic) {
-  if (logarithmic || most < 1e5) return (axis){quantity, "", 1};
-  if (most < 1e6) return (axis){quantity, " (thousands)", 1e3};
-  if (most < 1e9) return (axis){quantity, " (millions)", 1e6};
+static axis choose_axis(const char *quantity, double max, int logarithmic) {
+  if (logarithmic || max < 1e5) return (axis){quantity, "", 1};
+  if (max < 1e6) return (axis){quantity, " (thousands)", 1e3};
+  if (max < 1e9) return (axis){quantity, " (millions)", 1e6};
   return (axis){quantity, " (billions)", 1e9};
 }
 
@@ -69,7 +69,7 @@ static void write_power(FILE *script, const study *s) {
   write_curve(script, key);
 }
 
-static void write_axes(FILE *script, const axis *n, const axis *l, double most,
+static void write_axes(FILE *script, const axis *n, const axis *l, double max,
                        int logarithmic) {
   fprintf(script, "set xlabel '%s N%s'\nset ylabel '%s L%s'\n", n->quantity, n->unit,
           l->quantity, l->unit);
@@ -80,7 +80,7 @@ static void write_axes(FILE *script, const axis *n, const axis *l, double most,
           script);
   else
     fprintf(script, "set xrange [0:%.17g]\nset yrange [0:*]\nset format '%%.7g'\n",
-            1.04 * most / n->divisor);
+            1.04 * max / n->divisor);
   fputs("set key top left reverse Left spacing 1.3\n"
         "set border 3 linecolor rgb '#404040'\nset tics nomirror\n"
         "set grid linecolor rgb '#c8c8c8'\nset samples 500\n",
@@ -90,20 +90,20 @@ static void write_axes(FILE *script, const axis *n, const axis *l, double most,
 static void write_script(FILE *script, const void *ctx) {
   const study *s = ctx;
   const options *o = s->options;
-  double most_n = 0, most_l = 0;
+  double max_n = 0, max_l = 0;
   fputs("set encoding utf8\n$rows << END\n", script);
   for (size_t k = 0; k < s->count; k++) {
     const hr2d_refine_counts *c = &s->rows[k].counts;
-    most_n = fmax(most_n, (double)c->elements);
-    most_l = fmax(most_l, (double)c->links);
+    max_n = fmax(max_n, (double)c->elements);
+    max_l = fmax(max_l, (double)c->links);
     fprintf(script, "%.17g %.17g\n", (double)c->elements, (double)c->links);
   }
-  const axis n = choose_axis("elements", most_n, o->plot_log);
-  const axis l = choose_axis("links", most_l, o->plot_log);
+  const axis n = choose_axis("elements", max_n, o->plot_log);
+  const axis l = choose_axis("links", max_l, o->plot_log);
   fputs("END\n", script);
   gnuplot_terminal(script, o->plot, 800, 560);
   write_title(script, o);
-  write_axes(script, &n, &l, most_n, o->plot_log);
+  write_axes(script, &n, &l, max_n, o->plot_log);
   if (!s->fitted)
     fputs("plot ", script);
   else if (o->plot_log)

@@ -138,11 +138,11 @@ START_TEST(bytes_are_for_blocks) {
   hr2d_solution_destroy(solution);
   ck_assert_uint_gt(bytes_of_blocks(&free), 20000);
   int coarser = 0;
-  for (uint64_t most = 2 * bytes_of_blocks(&free) + 1000000; most > 20000; most -= most / 8) {
-    target.max_bytes = most;
+  for (uint64_t max = 2 * bytes_of_blocks(&free) + 1000000; max > 20000; max -= max / 8) {
+    target.max_bytes = max;
     const hr2d_status status = hr2d_solve_to(scene, &target, &solution, &a);
     ck_assert(status == HR2D_OK || status == HR2D_EACCURACY);
-    if (solution && a.average.estimate <= 1) ck_assert_uint_le(bytes_of_blocks(&a), most);
+    if (solution && a.average.estimate <= 1) ck_assert_uint_le(bytes_of_blocks(&a), max);
     coarser += status == HR2D_EACCURACY && solution;
     hr2d_solution_destroy(solution);
   }
@@ -189,17 +189,17 @@ START_TEST(bytes_are_for_fields) {
   hr2d_scene *scene = room_of_bands(bands, &hooks);
   const long long before = atomic_load(&meter.held);
   int refused = 0, reached = 0;
-  for (uint64_t most = 1000000; most < 100000000; most *= 2) {
+  for (uint64_t max = 1000000; max < 100000000; max *= 2) {
     hr2d_target target = HR2D_TARGET_INIT;
     hr2d_solution *solution;
     hr2d_account a;
     target.error = 1e-4;
-    target.max_bytes = most;
+    target.max_bytes = max;
     target.no_error = _i;
     atomic_store(&meter.peak, before);
     const hr2d_status status = hr2d_solve_to(scene, &target, &solution, &a);
     ck_assert(status == HR2D_OK || status == HR2D_EACCURACY);
-    ck_assert_int_le(atomic_load(&meter.peak) - before, (long long)most + SLACK);
+    ck_assert_int_le(atomic_load(&meter.peak) - before, (long long)max + SLACK);
     if (status) ck_assert_msg(strstr(a.reason, "for fields of 256 bands"), "%s", a.reason);
     refused += status == HR2D_EACCURACY;
     reached += status == HR2D_OK;

@@ -101,9 +101,9 @@ static layer solve_layer(double width, double target, hr2d_norm norm) {
 #define NARROW 1e-5
 
 static void compare_layers(const layer *is, const layer *right, double width) {
-  const double most = 1 / (1 - RHO_0 * RHO_1);
-  const double allowed_h = is->account.irradiance_sup.bound * most + NARROW;
-  const double allowed_b = is->account.sup.bound * most + NARROW;
+  const double max = 1 / (1 - RHO_0 * RHO_1);
+  const double allowed_h = is->account.irradiance_sup.bound * max + NARROW;
+  const double allowed_b = is->account.sup.bound * max + NARROW;
   for (size_t k = 0; k < POINTS; k++) {
     ck_assert_msg(fabs(is->h[k] - right->h[k]) <= allowed_h,
                   "gap %g, point %zu: H of %g and %g, bound %g", width, k, is->h[k],

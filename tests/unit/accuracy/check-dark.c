@@ -94,11 +94,11 @@ START_TEST(a_dark_room_is_dark) {
   for (double error = 1e-3; error > 1e-10; error *= 1e-3) {
     hr2d_solution *solution = solve(scene, error, &a);
     check_signs(scene, solution);
-    const double most = hr2d_solution_average(truth, 3, 0);
+    const double max = hr2d_solution_average(truth, 3, 0);
     for (size_t p = 0; p < 6; p++) {
       const double is = hr2d_solution_average(solution, p, 0);
       const double right = hr2d_solution_average(truth, p, 0);
-      const double off = fabs(is - right) / fmax(right, HR2D_FLOOR * most);
+      const double off = fabs(is - right) / fmax(right, HR2D_FLOOR * max);
       /* The corners of the last two are off themselves, by 1e-9 and 1e-10 of 3. */
       ck_assert_double_le(off, fmax(error, _i ? 3e-3 : 0) + 1e-9);
       if (_i == 0) ck_assert_double_le(off, a.average.bound + 1e-9);

@@ -9,21 +9,21 @@
 #include "support/support.h"
 
 static double kappa_of(const double (*patch)[6], size_t count) {
-  double most = 0;
-  for (size_t k = 0; k < count; k++) most = fmax(most, patch[k][5]);
-  return 1 / (1 - most);
+  double max = 0;
+  for (size_t k = 0; k < count; k++) max = fmax(max, patch[k][5]);
+  return 1 / (1 - max);
 }
 
 /* B at ¼ and ½ after one more gather, relative to the largest of them. */
 static double point_error(const radiosity_scene *s, const hr2d_solution *solution) {
-  double worst = 0, most = 0;
-  for (size_t k = 0; k < s->patches; k++) most = fmax(most, fmax(s->quarter[k], s->half[k]));
+  double worst = 0, max = 0;
+  for (size_t k = 0; k < s->patches; k++) max = fmax(max, fmax(s->quarter[k], s->half[k]));
   for (size_t k = 0; k < s->patches; k++) {
     double value[2];
     ck_assert_int_eq(hr2d_solution_gather(solution, k, (const double[]){.25, .5}, 2, value),
                      HR2D_OK);
-    worst = fmax(worst, fabs(value[0] - s->quarter[k]) / most);
-    worst = fmax(worst, fabs(value[1] - s->half[k]) / most);
+    worst = fmax(worst, fabs(value[0] - s->quarter[k]) / max);
+    worst = fmax(worst, fabs(value[1] - s->half[k]) / max);
   }
   return worst;
 }
@@ -47,7 +47,7 @@ START_TEST(targets_are_met_on_reference_scenes) {
       ck_assert_msg(accuracy_is_bounded(a.average, error, 1e-14, rounding),
                     "%s at %g: %g above %g", s->name, target[q], error, a.average.bound);
       accuracy_compare(&t, a.average, error, 1e-14, rounding,
-                       accuracy_least_estimate(scene, target[q]));
+                       accuracy_min_estimate(scene, target[q]));
       /* Kinks that do not matter to averages stay inside elements, and points show them. */
       ck_assert_double_le(point_error(s, solution), a.sup.bound + 1e-13);
       if (q == 3) ck_assert_double_le(point_error(s, solution), s->patches > 4 ? 1e-8 : 1e-12);

@@ -40,9 +40,9 @@ static stage measure(hr2d_scene *scene, double epsilon, unsigned order) {
   return s;
 }
 
-/* An error that is known to be at least `least`, and about `about`. */
-static void expect_error(hr2d_error e, double least, double about) {
-  ck_assert_double_ge(e.bound, least);
+/* An error that is known to be at least `min`, and about `about`. */
+static void expect_error(hr2d_error e, double min, double about) {
+  ck_assert_double_ge(e.bound, min);
   ck_assert_double_ge(e.estimate, 0.9 * about);
   ck_assert_double_le(e.bound, 1.5 * about + 1e-12);
 }
@@ -90,8 +90,8 @@ START_TEST(black_plates_have_errors_of_h) {
   const double average = sqrt(1.25) - .5, middle = sqrt(.5), end = 1 / sqrt(5);
   ck_assert_double_eq_tol(hr2d_solution_irradiance(s.solution, 1, 0), average, 1e-12);
   ck_assert_double_le(s.account.irradiance.bound, 1e-9);
-  const double most = fmax(middle - average, average - end) / middle;
-  expect_error(s.account.irradiance_sup, most, most);
+  const double max = fmax(middle - average, average - end) / middle;
+  expect_error(s.account.irradiance_sup, max, max);
   clear(&s);
 }
 END_TEST

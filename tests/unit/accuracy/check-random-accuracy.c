@@ -17,8 +17,8 @@ typedef struct trial {
 } trial;
 
 /* ‖(I − ρK)⁻¹‖∞, roughly. */
-static double measure_kappa(uint64_t seed, int k, double most) {
-  accuracy_scene s = accuracy_draw(seed, k, most);
+static double measure_kappa(uint64_t seed, int k, double max) {
+  accuracy_scene s = accuracy_draw(seed, k, max);
   hr2d_account a;
   double kappa = 1;
   accuracy_set_uniform(&s);
@@ -32,11 +32,11 @@ static double measure_kappa(uint64_t seed, int k, double most) {
   return kappa;
 }
 
-static trial make_trial(uint64_t seed, int k, double most) {
-  trial t = {.drawn = accuracy_draw(seed, k, most)};
+static trial make_trial(uint64_t seed, int k, double max) {
+  trial t = {.drawn = accuracy_draw(seed, k, max)};
   t.scene = accuracy_make(&t.drawn);
   t.patches = hr2d_scene_patches(t.scene);
-  t.kappa = measure_kappa(seed, k, most);
+  t.kappa = measure_kappa(seed, k, max);
   return t;
 }
 
@@ -46,10 +46,10 @@ static void end_trial(trial *t) {
 }
 
 static double largest_average(const trial *t, const hr2d_solution *solution, size_t band) {
-  double most = 0;
+  double max = 0;
   for (size_t p = 0; p < t->patches; p++)
-    most = fmax(most, hr2d_solution_average(solution, p, band));
-  return most;
+    max = fmax(max, hr2d_solution_average(solution, p, band));
+  return max;
 }
 
 /* The largest relative error of an average, without what rounding explains: patches so dark
@@ -59,13 +59,13 @@ static double average_distance(const trial *t, const hr2d_solution *one,
   double worst = 0;
   *rounding = ACCURACY_ROUNDING * t->kappa;
   for (size_t b = 0; b < t->drawn.bands; b++) {
-    const double most = largest_average(t, other, b);
+    const double max = largest_average(t, other, b);
     for (size_t p = 0; p < t->patches; p++) {
       const double right = hr2d_solution_average(other, p, b);
       const double error = fabs(hr2d_solution_average(one, p, b) - right);
-      if (!(right > 1e-9 * most) || !(error > worst * right)) continue;
+      if (!(right > 1e-9 * max) || !(error > worst * right)) continue;
       worst = error / right;
-      *rounding = ACCURACY_ROUNDING * t->kappa * most / right;
+      *rounding = ACCURACY_ROUNDING * t->kappa * max / right;
     }
   }
   return worst;
@@ -77,7 +77,7 @@ enum { PLACES = 24 };
 static double sup_distance(const trial *t, const hr2d_solution *one,
                            const hr2d_solution *other) {
   double place[PLACES], value[2][PLACES * ACCURACY_BANDS], worst[ACCURACY_BANDS] = {0},
-                                                           most[ACCURACY_BANDS] = {0}, all = 0;
+                                                           max[ACCURACY_BANDS] = {0}, all = 0;
   const size_t bands = t->drawn.bands;
   for (int k = 0; k < PLACES; k++) place[k] = (k + .37) / PLACES;
   place[0] = 1e-3, place[PLACES - 1] = 1 - 1e-3;
@@ -86,11 +86,11 @@ static double sup_distance(const trial *t, const hr2d_solution *one,
     ck_assert_int_eq(hr2d_solution_gather(other, p, place, PLACES, value[1]), HR2D_OK);
     for (size_t k = 0; k < PLACES * bands; k++) {
       worst[k % bands] = fmax(worst[k % bands], fabs(value[0][k] - value[1][k]));
-      most[k % bands] = fmax(most[k % bands], value[1][k]);
+      max[k % bands] = fmax(max[k % bands], value[1][k]);
     }
   }
   for (size_t b = 0; b < bands; b++)
-    if (worst[b] > 0) all = fmax(all, worst[b] / most[b]);
+    if (worst[b] > 0) all = fmax(all, worst[b] / max[b]);
   return all;
 }
 
@@ -104,9 +104,9 @@ static void fail_trial(const trial *t, uint64_t seed, int k, double target, doub
 }
 
 /* Reflectances at most 0.9 or 0.999, or 1 for some patches but not for all. */
-static double most_of(int k) {
-  const double most[] = {.5, .9, .99, .999};
-  return most[k % 4];
+static double max_of(int k) {
+  const double max[] = {.5, .9, .99, .999};
+  return max[k % 4];
 }
 
 static int trials(int count) {
@@ -119,7 +119,7 @@ START_TEST(averages_of_random_scenes) {
   const uint64_t seed = test_seed();
   accuracy_tally all = {0, 0};
   for (int k = 0; k < trials(100); k++) {
-    trial t = make_trial(seed, k, most_of(k));
+    trial t = make_trial(seed, k, max_of(k));
     hr2d_account a, b;
     double rounding;
     hr2d_solution *solution = accuracy_solve(t.scene, target[k % 5], HR2D_NORM_AVERAGE, &a);
@@ -131,7 +131,7 @@ START_TEST(averages_of_random_scenes) {
         !accuracy_is_bounded(a.average, error, known, rounding))
       fail_trial(&t, seed, k, target[k % 5], error, a.average);
     accuracy_compare(&all, a.average, error, known, rounding,
-                     accuracy_least_estimate(t.scene, target[k % 5]));
+                     accuracy_min_estimate(t.scene, target[k % 5]));
     accuracy_check_account(&a, solution);
     hr2d_solution_destroy(truth);
     hr2d_solution_destroy(solution);
@@ -149,7 +149,7 @@ START_TEST(points_of_random_scenes) {
   const double target[] = {1e-2, 1e-3, 1e-4};
   const uint64_t seed = test_seed();
   for (int k = 0; k < trials(30); k++) {
-    trial t = make_trial(seed, k + 1000, most_of(k));
+    trial t = make_trial(seed, k + 1000, max_of(k));
     hr2d_account a, b;
     const double rounding = ACCURACY_ROUNDING * t.kappa;
     hr2d_solution *solution = accuracy_solve(t.scene, target[k % 3], HR2D_NORM_SUP, &a);

@@ -62,7 +62,7 @@ static cell draw(randoms *r) {
 
 typedef struct answer {
   double b[PATCHES], h[PATCHES];
-  double at[PATCHES][POINTS], most;   /* H at points, and the largest */
+  double at[PATCHES][POINTS], max;    /* H at points, and the largest */
   double mean[POINTS], error[POINTS]; /* M between the patches; NaN for none */
   hr2d_account account;
 } answer;
@@ -73,7 +73,7 @@ static void look_between(const cell *c, const hr2d_solution *solution, answer *a
   hr2d_field_options options = HR2D_FIELD_OPTIONS_INIT;
   hr2d_field_values values = HR2D_FIELD_VALUES_INIT;
   double b = 0;
-  for (size_t k = 0; k < c->count; k++) b = fmax(b, c->at[k][4] + c->at[k][5] * a->most);
+  for (size_t k = 0; k < c->count; k++) b = fmax(b, c->at[k][4] + c->at[k][5] * a->max);
   for (size_t k = 0; k < 4 * PATCHES; k++) off[k] = a->account.sup.bound * b;
   for (int m = 0; m < POINTS; m++)
     at[m] = (hr2d_point){c->step * between[m][0], c->high * between[m][1]};
@@ -87,7 +87,7 @@ static answer solve(const cell *c, int cells, double error) {
   hr2d_scene *scene = test_new_scene(NULL);
   hr2d_solution *solution;
   hr2d_target target = HR2D_TARGET_INIT;
-  answer a = {.most = 0};
+  answer a = {.max = 0};
   target.error = error;
   for (int m = 0; m < cells; m++)
     for (size_t k = 0; k < c->count; k++) {
@@ -105,7 +105,7 @@ static answer solve(const cell *c, int cells, double error) {
     a.h[k] = hr2d_solution_irradiance(solution, k, 0);
     ck_assert_int_eq(hr2d_solution_gather_irradiance(solution, k, places, POINTS, a.at[k]),
                      HR2D_OK);
-    for (int m = 0; m < POINTS; m++) a.most = fmax(a.most, a.at[k][m]);
+    for (int m = 0; m < POINTS; m++) a.max = fmax(a.max, a.at[k][m]);
   }
   look_between(c, solution, &a);
   hr2d_solution_destroy(solution);
@@ -114,8 +114,8 @@ static answer solve(const cell *c, int cells, double error) {
 }
 
 static void expect_points(size_t k, size_t p, const answer *one, const answer *four) {
-  const double of_one = one->account.irradiance_sup.bound * one->most,
-               of_four = four->account.irradiance_sup.bound * four->most;
+  const double of_one = one->account.irradiance_sup.bound * one->max,
+               of_four = four->account.irradiance_sup.bound * four->max;
   for (int m = 0; m < POINTS; m++)
     ck_assert_msg(fabs(one->at[p][m] - four->at[p][m]) <= of_one + of_four,
                   "cell %zu, patch %zu at %g: H %g and %g, bounds of %g and %g", k, p,

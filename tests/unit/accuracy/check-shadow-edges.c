@@ -53,7 +53,7 @@ static found measure(const hr2d_scene *scene, const swept_solution *truth, doubl
   hr2d_target wanted = HR2D_TARGET_INIT;
   hr2d_solution *solution;
   found f = {.error = 0};
-  double most = 0;
+  double max = 0;
   wanted.error = target;
   wanted.norm = HR2D_NORM_SUP;
   wanted.floor = 1e-3;
@@ -64,9 +64,9 @@ static found measure(const hr2d_scene *scene, const swept_solution *truth, doubl
     ck_assert_int_eq(hr2d_solution_gather(solution, RECEIVER, &t, 1, &b), HR2D_OK);
     swept_at(truth, RECEIVER, (real)t, &h);
     f.error = fmax(f.error, fabs(b - grey * h));
-    most = fmax(most, grey * h);
+    max = fmax(max, grey * h);
   }
-  f.error /= most;
+  f.error /= max;
   hr2d_solution_destroy(solution);
   return f;
 }

@@ -224,9 +224,9 @@ static void work(hr2d_share *share, void *ctx) {
 }
 
 static double largest(const double *value, size_t count) {
-  double most = 0;
-  for (size_t k = 0; k < count; k++) most = fmax(most, fabs(value[k]));
-  return most;
+  double max = 0;
+  for (size_t k = 0; k < count; k++) max = fmax(max, fabs(value[k]));
+  return max;
 }
 
 static void compare_with_one(const kind *k, const found *f, const found *one) {
@@ -254,7 +254,7 @@ static void expect_plates(const found *f) {
     ck_assert_double_eq_tol(f->average[k], answer[k], 1e-6 * answer[k]);
 }
 
-/* The links of a share are not counted here: they are its own.  Which sights a further
+/* The links of a share are not counted here: they are its own.  Which line classes a further
    refinement cuts in one go depends on the links that stand side by side. */
 static int same_bits(const kind *k, const found *f, const found *g) {
   found copy = *g;
@@ -312,11 +312,11 @@ enum { EVEN_KINDS = sizeof even_kinds / sizeof *even_kinds };
 
 /* The largest number of some shares, and all of them together. */
 typedef struct spread {
-  double most, all;
+  double max, all;
 } spread;
 
 static void spread_add(spread *s, uint64_t number) {
-  s->most = fmax(s->most, (double)number);
+  s->max = fmax(s->max, (double)number);
   s->all += (double)number;
 }
 
@@ -327,16 +327,16 @@ static void check_spread(const kind *k, const found *of, unsigned count) {
     spread_add(&tests, of[m].own_tests);
   }
   ck_assert_double_eq(links.all, (double)of[0].links);
-  const double even = links.most * count / links.all, one = fmax(1, (double)of[0].tests);
+  const double even = links.max * count / links.all, one = fmax(1, (double)of[0].tests);
   printf("%s: %.0f links, the most of %u shares %.3f times the mean; %.0f tests, %.3f times, "
          "%.3f together\n",
-         k->name, links.all, count, even, (double)of[0].tests, tests.most * count / one,
+         k->name, links.all, count, even, (double)of[0].tests, tests.max * count / one,
          tests.all / one);
   ck_assert_double_ge(links.all, 100);
   ck_assert_msg(even <= 1.15, "%s: %g of the mean on one of %u shares", k->name, even, count);
-  ck_assert_msg(!k->even_tests || tests.most * count <= 1.3 * one,
+  ck_assert_msg(!k->even_tests || tests.max * count <= 1.3 * one,
                 "%s: one of %u shares has %g tests, and one process %g", k->name, count,
-                tests.most, one);
+                tests.max, one);
 }
 
 START_TEST(links_are_shared_out_evenly) {

@@ -31,10 +31,10 @@ static double length_of(const short_room *r, size_t patch) {
 
 static void compare_averages(const short_room *r, const convex_solution *truth,
                              const hr2d_solution *solution, found *f) {
-  double most[2] = {0, 0};
+  double max[2] = {0, 0};
   for (size_t p = 0; p < r->patches; p++) {
-    most[0] = fmax(most[0], convex_radiosity(truth, p));
-    most[1] = fmax(most[1], convex_irradiance(truth, p));
+    max[0] = fmax(max[0], convex_radiosity(truth, p));
+    max[1] = fmax(max[1], convex_irradiance(truth, p));
   }
   for (size_t p = 0; p < r->patches; p++) {
     const double right[] = {convex_radiosity(truth, p), convex_irradiance(truth, p)};
@@ -42,24 +42,24 @@ static void compare_averages(const short_room *r, const convex_solution *truth,
                          hr2d_solution_irradiance(solution, p, 0)};
     for (int h = 0; h < 2; h++)
       f->average[h] =
-          fmax(f->average[h], fabs(is[h] - right[h]) / fmax(right[h], HR2D_FLOOR * most[h]));
+          fmax(f->average[h], fabs(is[h] - right[h]) / fmax(right[h], HR2D_FLOOR * max[h]));
   }
 }
 
 /* The largest B and H at a point are at ends, perhaps beside a short patch. */
-static void find_largest(const short_room *r, const convex_solution *truth, double most[2]) {
+static void find_largest(const short_room *r, const convex_solution *truth, double max[2]) {
   for (size_t p = 0; p < r->patches; p++)
     for (int k = 0; k < 64; k++) {
       const double distance = ldexp(length_of(r, p), -1 - k / 2);
       const double h = convex_irradiance_at(truth, p, distance, k % 2);
-      most[0] = fmax(most[0], r->patch[p][4] + r->patch[p][5] * h);
-      most[1] = fmax(most[1], h);
+      max[0] = fmax(max[0], r->patch[p][4] + r->patch[p][5] * h);
+      max[1] = fmax(max[1], h);
     }
 }
 
 static void compare_points(const short_room *r, const convex_solution *truth,
                            const hr2d_solution *solution, found *f) {
-  double most[2] = {0, 0};
+  double max[2] = {0, 0};
   for (size_t p = 0; p < r->patches; p++)
     for (int k = 0; k < 2 * PLACES; k++) {
       const int from_end = k % 2;
@@ -73,8 +73,8 @@ static void compare_points(const short_room *r, const convex_solution *truth,
       f->sup[0] = fmax(f->sup[0], rho * fabs(is - right));
       f->sup[1] = fmax(f->sup[1], fabs(is - right));
     }
-  find_largest(r, truth, most);
-  for (int h = 0; h < 2; h++) f->sup[h] /= most[h];
+  find_largest(r, truth, max);
+  for (int h = 0; h < 2; h++) f->sup[h] /= max[h];
 }
 
 static void check_error(const char *what, int k, double target, hr2d_error e, double error) {

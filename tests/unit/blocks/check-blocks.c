@@ -257,20 +257,20 @@ static double distance_to(hr2d_segment s, hr2d_point p) {
 static double gap_between(hr2d_segment i, hr2d_segment j) {
   const double gap[] = {distance_to(i, j.a), distance_to(i, j.b), distance_to(j, i.a),
                         distance_to(j, i.b)};
-  double least = INFINITY;
+  double min = INFINITY;
   for (int k = 0; k < 4; k++)
-    if (gap[k] > 0) least = fmin(least, gap[k]);
-  return least;
+    if (gap[k] > 0) min = fmin(min, gap[k]);
+  return min;
 }
 
 /* An error divided by the allowed error.  Rounding costs a part of the area and a part of
    the smaller patch.  The places of points are rounded to 1e-16 of a patch; the kernel
    changes by this rounding over the gap. */
-static double share_of(const block_stage *s, double error, double area, double most) {
+static double share_of(const block_stage *s, double error, double area, double max) {
   const double a = hypot(s->i.b.x - s->i.a.x, s->i.b.y - s->i.a.y);
   const double b = hypot(s->j.b.x - s->j.a.x, s->j.b.y - s->j.a.y);
   const double blur = 1e-16 * fmax(a, b) / gap_between(s->i, s->j);
-  return error / ((most + blur) * area + 2e-14 * fmin(a, b));
+  return error / ((max + blur) * area + 2e-14 * fmin(a, b));
 }
 
 static const size_t orders[] = {2, 4, 8, 12, 16};

@@ -512,8 +512,8 @@ START_TEST(no_square_of_patches) {
   const int may = _i % 3 == 0;
   const double multiplier = test_multiplier();
   const int few = multiplier >= 0.1 || may ? 2400 : 600;
-  const int most = multiplier >= (may ? 0.1 : 1) ? 9600 : few;
-  for (int n = 600; n <= most; n *= 4) {
+  const int max = multiplier >= (may ? 0.1 : 1) ? 9600 : few;
+  for (int n = 600; n <= max; n *= 4) {
     hr2d_scene *scene = draw(shape, n, 0);
     const size_t near = count_near(scene, 1e-6, &links, &bytes);
     printf("%-8s %4d patches: %7zu near, %6llu links, %8llu bytes\n", shape->name, n, near,

@@ -289,13 +289,13 @@ static void gather_share(hr2d_share *share, void *ctx) {
 START_TEST(shares_have_the_sum) {
   stage s = set_stage();
   hr2d_clusters *clusters = NULL;
-  double most = 0;
+  double max = 0;
   ck_assert_int_eq(hr2d_clusters_create(s.scene, NULL, ignore, NULL, &clusters), HR2D_OK);
   ck_assert_int_eq(hr2d_clusters_gather(clusters, NULL, ORDER, BANDS, s.b, s.power), HR2D_OK);
   shares_run(3, gather_share, &s);
-  for (size_t k = 0; k < s.values; k++) most = fmax(most, fabs(s.power[k]));
+  for (size_t k = 0; k < s.values; k++) max = fmax(max, fabs(s.power[k]));
   for (size_t k = 0; k < s.values; k++)
-    ck_assert_double_eq_tol(s.shared[k], s.power[k], 1e-13 * most);
+    ck_assert_double_eq_tol(s.shared[k], s.power[k], 1e-13 * max);
   hr2d_clusters_destroy(clusters);
   clear_stage(&s);
 }

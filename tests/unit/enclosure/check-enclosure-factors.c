@@ -80,8 +80,8 @@ static double line_at(double a, double b, double u) {
 
 /* How far a factor is outside of a strip. */
 static double outside(const hr2di_strip *s, double u, real f) {
-  return fmax((double)(line_at(s->at[0].least, s->at[1].least, u) - f),
-              (double)(f - line_at(s->at[0].most, s->at[1].most, u)));
+  return fmax((double)(line_at(s->at[0].lower, s->at[1].lower, u) - f),
+              (double)(f - line_at(s->at[0].upper, s->at[1].upper, u)));
 }
 
 START_TEST(factors_are_inside) {
@@ -96,7 +96,7 @@ START_TEST(factors_are_inside) {
       const real f = factor_at(&i, u, j.part);
       ck_assert_msg(outside(&s, u, f) <= 0,
                     "turn %d: F = %.17Lg at %g is outside of %.17g..%.17g, %.17g..%.17g", turn,
-                    f, u, s.at[0].least, s.at[0].most, s.at[1].least, s.at[1].most);
+                    f, u, s.at[0].lower, s.at[0].upper, s.at[1].lower, s.at[1].upper);
     }
   }
 }
@@ -111,7 +111,7 @@ START_TEST(lower_factors_are_noticed) {
     draw_patches(&r, 0, &p, &q);
     const hr2di_enclosed i = draw_part(&r, p), j = draw_part(&r, q);
     hr2di_strip s = hr2di_factor_strip(&i, &j);
-    for (int k = 0; k < 2; k++) s.at[k].most *= 0.999;
+    for (int k = 0; k < 2; k++) s.at[k].upper *= 0.999;
     for (int k = 0; k <= 8; k++)
       noticed += outside(&s, 0.125 * k, factor_at(&i, 0.125 * k, j.part)) > 0;
   }
@@ -128,7 +128,7 @@ START_TEST(strips_shrink_with_elements) {
     hr2di_enclosed_init(&i, a, a, 0);
     hr2di_enclosed_init(&j, b, b, 0);
     const hr2di_strip s = hr2di_factor_strip(&i, &j);
-    const double height = s.at[0].most - s.at[0].least;
+    const double height = s.at[0].upper - s.at[0].lower;
     ck_assert_double_lt(height, 2 * h * h * h);
     if (before > 0) ck_assert_double_lt(height, before / 7);
     before = height;
@@ -143,14 +143,14 @@ START_TEST(kernels_are_inside) {
     draw_patches(&r, turn % 5, &p, &q);
     const hr2di_enclosed i = draw_part(&r, p), j = draw_part(&r, q);
     const double spread = hr2di_kernel_spread(&i, &j);
-    double least = INFINITY, most = 0;
+    double min = INFINITY, max = 0;
     for (int k = 0; k < 20; k++) {
       const double g = hr2d_kernel(&i.part, between(i.part, random_unit(&r)), &j.part,
                                    between(j.part, random_unit(&r)));
-      least = fmin(least, g);
-      most = fmax(most, g);
+      min = fmin(min, g);
+      max = fmax(max, g);
     }
-    ck_assert_double_le(most - least, spread);
+    ck_assert_double_le(max - min, spread);
   }
 }
 END_TEST

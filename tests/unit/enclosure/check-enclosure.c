@@ -224,21 +224,21 @@ static int holds_with(double part, double right) {
   hr2di_enclosing e;
   make_pairs(&e, scene);
   for (size_t k = 0; k < e.count; k++) {
-    e.link[k].area.most *= part;
-    for (int n = 0; n < 4; n++) e.link[k].factor[n / 2].at[n % 2].most *= part;
+    e.link[k].area.upper *= part;
+    for (int n = 0; n < 4; n++) e.link[k].factor[n / 2].at[n % 2].upper *= part;
   }
   ck_assert_int_eq(hr2di_enclosing_begin(&e), HR2D_OK);
   ck_assert_int_eq(hr2di_enclosing_sweep(&e), HR2D_OK);
-  double most = 0;
+  double max = 0;
   for (uint32_t k = 0; k < e.elements; k++)
     if (hr2di_enclosing_has(&e, k) && e.hierarchy->element[k].patch == 2)
-      most += e.b[k].mean.most / 32;
+      max += e.b[k].mean.upper / 32;
   hr2di_enclosing_forget(&e);
   hr2di_alloc_free(&e.alloc, e.link);
   hr2d_linkset_destroy(e.links);
   hr2d_hierarchy_destroy(e.hierarchy);
   hr2d_scene_destroy(scene);
-  return right <= most;
+  return right <= max;
 }
 
 START_TEST(lower_factors_are_noticed) {

@@ -68,12 +68,12 @@ static hr2d_solution *solve(const hr2d_scene *scene, double error, double floor,
 /* The stated absolute error of the average H of patch 0 in band 0. */
 static double stated(const hr2d_scene *scene, const hr2d_solution *s, const hr2d_account *a,
                      double floor) {
-  double most = 0;
+  double max = 0;
   for (size_t k = 0; k < hr2d_scene_patches(scene); k++)
-    most = fmax(most, hr2d_solution_irradiance(s, k, 0));
+    max = fmax(max, hr2d_solution_irradiance(s, k, 0));
   ck_assert_double_lt(a->irradiance.bound, 1);
   return a->irradiance.bound / (1 - a->irradiance.bound) *
-         fmax(hr2d_solution_irradiance(s, 0, 0), floor * most);
+         fmax(hr2d_solution_irradiance(s, 0, 0), floor * max);
 }
 
 /* The segment of this length with its middle `apart` from the origin, turned off the direction
@@ -123,8 +123,8 @@ START_TEST(a_lamp_before_a_dark_wall) {
 END_TEST
 
 /* A number of that size with few digits: sums with it have no rounding. */
-static double shift_of(randoms *r, int least, int most) {
-  return ldexp(1 + random_below(r, 8) / 8., least + random_below(r, most - least + 1));
+static double shift_of(randoms *r, int min, int max) {
+  return ldexp(1 + random_below(r, 8) / 8., min + random_below(r, max - min + 1));
 }
 
 /* A patch that is black in band 0 and shines if it is the first one.  In band 1 something

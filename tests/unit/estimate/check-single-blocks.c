@@ -44,7 +44,7 @@ static void solve(const hr2d_scene *scene, int single, unsigned threads, answer 
   hr2di_scene_watch(scene, &watch, NULL, NULL, "refine");
   ck_assert_int_eq(hr2di_strategy_survey(scene, NULL, 1, &watch, &survey), HR2D_OK);
   hr2di_resolution f = hr2di_strategy_for(scene, &survey, AIM, &target, NULL);
-  f.shares = 0;
+  f.a_posteriori = 0;
   f.single = single;
   ck_assert_int_eq(hr2di_graded_refine(&a->graded, scene, &f, &target, &message), HR2D_OK);
   ck_assert_int_eq(hr2di_graded_solve(&a->graded, &f, &target, &message), HR2D_OK);
@@ -72,11 +72,11 @@ static double apart(const answer *a, const answer *b, size_t bands) {
   double worst = 0;
   for (int h = 0; h < 2; h++)
     for (size_t band = 0; band < bands; band++) {
-      double most = 0;
-      for (size_t k = band; k < a->values; k += bands) most = fmax(most, fabs(a->value[h][k]));
-      for (size_t k = band; k < a->values && most > 0; k += bands)
+      double max = 0;
+      for (size_t k = band; k < a->values; k += bands) max = fmax(max, fabs(a->value[h][k]));
+      for (size_t k = band; k < a->values && max > 0; k += bands)
         worst = fmax(worst, fabs(a->value[h][k] - b->value[h][k]) /
-                                fmax(fabs(a->value[h][k]), HR2D_FLOOR * most));
+                                fmax(fabs(a->value[h][k]), HR2D_FLOOR * max));
     }
   return worst;
 }
@@ -90,19 +90,19 @@ static double apart_at(const answer *a, const answer *b, size_t patch, size_t ba
   ck_assert_int_eq(hr2d_solution_gather(a->graded.solution, patch, at, POINTS, x), HR2D_OK);
   ck_assert_int_eq(hr2d_solution_gather(b->graded.solution, patch, at, POINTS, y), HR2D_OK);
   for (size_t band = 0; band < bands; band++) {
-    double most = 0, off = 0;
+    double max = 0, off = 0;
     for (size_t k = band; k < POINTS * bands; k += bands) {
-      most = fmax(most, fabs(x[k]));
+      max = fmax(max, fabs(x[k]));
       off = fmax(off, fabs(x[k] - y[k]));
     }
-    if (off > 0) worst = fmax(worst, off / most);
+    if (off > 0) worst = fmax(worst, off / max);
   }
   return worst;
 }
 
 /* Compares solutions from floats and doubles; returns the part of the bound that roundings
    take. */
-static double compare(const hr2d_scene *scene, double *most) {
+static double compare(const hr2d_scene *scene, double *max) {
   answer floats, doubles;
   solve(scene, 1, 1, &floats);
   solve(scene, 0, 1, &doubles);
@@ -116,7 +116,7 @@ static double compare(const hr2d_scene *scene, double *most) {
      kinks may hide is no more than residuals allow, and these are roundings in a furnace. */
   ck_assert_double_lt(fabs(floats.errors.average.estimate - doubles.errors.average.estimate),
                       0.02 * AIM + 0.1 * doubles.errors.average.estimate);
-  if (off > doubles.errors.rounding[0]) *most = fmax(*most, off);
+  if (off > doubles.errors.rounding[0]) *max = fmax(*max, off);
   clear(&floats);
   clear(&doubles);
   return off / bound;
@@ -124,23 +124,23 @@ static double compare(const hr2d_scene *scene, double *most) {
 
 /* The bound for doubles does not hold: floats are used, and roundings are seen. */
 START_TEST(averages_keep_to_the_bound) {
-  double most = 0, part = 0;
+  double max = 0, part = 0;
   const size_t count = test_rounds(300, 12);
   for (size_t k = 0; k < count; k++) {
     accuracy_scene drawn = accuracy_draw(test_seed(), (int)k, 0.95);
     hr2d_scene *scene = accuracy_make(&drawn);
-    part = fmax(part, compare(scene, &most));
+    part = fmax(part, compare(scene, &max));
     hr2d_scene_destroy(scene);
     accuracy_free(&drawn);
   }
   static const slow_kind kind[] = {SLOW_SQUARES, SLOW_SOUP, SLOW_COMB, SLOW_ROUND};
   for (int k = 0; k < 4; k++) {
     hr2d_scene *scene = slow(kind[k], 40);
-    part = fmax(part, compare(scene, &most));
+    part = fmax(part, compare(scene, &max));
     hr2d_scene_destroy(scene);
   }
-  printf("averages differ by %.2g, %.2g of the bound\n", most, part);
-  ck_assert_double_gt(most, 1e-10);
+  printf("averages differ by %.2g, %.2g of the bound\n", max, part);
+  ck_assert_double_gt(max, 1e-10);
 }
 END_TEST
 

@@ -81,13 +81,13 @@ START_TEST(fields_are_within_their_errors) {
     hr2d_point at[POINTS];
     light *is = malloc(2 * sizeof *is);
     ck_assert_ptr_nonnull(is);
-    double most = 0;
+    double max = 0;
     for (size_t p = 0; p < hr2d_scene_patches(scene); p++)
-      most = fmax(most, hr2d_solution_average(exact, p, 0));
+      max = fmax(max, hr2d_solution_average(exact, p, 0));
     draw_points(scene, &r, at);
     look(solution, &account, at, &is[0]);
     look(exact, &exact_account, at, &is[1]);
-    expect_within(&is[0], &is[1], hr2d_scene_bands(scene), account.sup.bound * most, k,
+    expect_within(&is[0], &is[1], hr2d_scene_bands(scene), account.sup.bound * max, k,
                   drawn.shape);
     free(is);
     hr2d_solution_destroy(exact);

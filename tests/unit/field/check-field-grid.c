@@ -179,10 +179,10 @@ static field_stage draw_slit(randoms *r) {
 }
 
 /* Those of the half with the strip where there is more light than this. */
-static size_t lit_nodes(const sheet *s, double least) {
+static size_t lit_nodes(const sheet *s, double min) {
   size_t count = 0;
   for (size_t k = 0; k < s->nodes; k++)
-    count += k % s->grid.columns > s->grid.columns / 2 && s->mean[k] > least;
+    count += k % s->grid.columns > s->grid.columns / 2 && s->mean[k] > min;
   return count;
 }
 

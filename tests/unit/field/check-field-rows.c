@@ -100,7 +100,7 @@ START_TEST(rows_of_random_scenes) {
                           first.a.y + random_between(&r, -1, 1)};
     const hr2d_point normal = {3 * cos(angle), 3 * sin(angle)}, away = {-normal.x, -normal.y};
     if (open_sweep_clearance(&s.all, (spot){x.x, x.y}) < 1e-9) continue;
-    double mean = 0, ahead = 0, behind = 0, most = 0;
+    double mean = 0, ahead = 0, behind = 0, max = 0;
     k.calls = 0;
     ck_assert_int_eq(hr2d_field_rows_visit(s.t.scene, &x, &normal, 1, NULL, take, &k), HR2D_OK);
     ck_assert_double_le(distance(&s, x, angle, &k), 1e-13);
@@ -108,7 +108,7 @@ START_TEST(rows_of_random_scenes) {
       const double b = hr2d_solution_average(s.solution, p, 0);
       mean += k.share[p] * b;
       ahead += k.factor[p] * b;
-      most = fmax(most, b);
+      max = fmax(max, b);
     }
     mean += k.row.sky * hr2d_scene_background(s.t.scene, 0);
     ahead += k.row.sky_factor * hr2d_scene_background(s.t.scene, 0);

@@ -159,14 +159,14 @@ static text make(const shape *s, size_t size) {
 }
 
 START_TEST(memory_is_a_multiple_of_the_file) {
-  double most = 0;
+  double max = 0;
   for (size_t k = 0; k < sizeof shapes / sizeof *shapes; k++) {
     text t = make(&shapes[k], shape_size());
     const double multiple = parse(shapes[k].name, &t, shapes[k].status);
-    if (multiple > most) most = multiple;
+    if (multiple > max) max = multiple;
     free(t.at);
   }
-  printf("at most %.1f\n", most);
+  printf("at most %.1f\n", max);
 }
 END_TEST
 

@@ -30,13 +30,13 @@ static void assert_close(double value, double expected, double bar) {
 /* Whether the coordinates' scales are as near as hr2d_orientation() promises for;
    a nudge of 0 leads to 2^-1074. */
 static int near_in_scale(const hr2d_point *points, int count) {
-  double least = INFINITY, most = 0;
+  double min = INFINITY, max = 0;
   for (int k = 0; k < 2 * count; k++) {
     const double x = fabs(k & 1 ? points[k / 2].y : points[k / 2].x);
-    if (x > 0) least = fmin(least, x);
-    most = fmax(most, x);
+    if (x > 0) min = fmin(min, x);
+    max = fmax(max, x);
   }
-  return ldexp(most, -900) < least;
+  return ldexp(max, -900) < min;
 }
 
 static void check_orientation(const pair_class *class, hr2d_point a, hr2d_point b,
@@ -231,8 +231,8 @@ START_TEST(no_more_than_a_length_is_exchanged) {
   randoms r = randoms_stream(test_seed(), 8000 + _i);
   for (int k = test_count(20000); k > 0; k--) {
     const pair p = draw_pair(class, &r);
-    const double af = area(p.i, p.j), most = fmin(plane_length(p.i), plane_length(p.j));
-    ck_assert(af >= 0 && af <= most * (1 + BAR) + DBL_TRUE_MIN);
+    const double af = area(p.i, p.j), max = fmin(plane_length(p.i), plane_length(p.j));
+    ck_assert(af >= 0 && af <= max * (1 + BAR) + DBL_TRUE_MIN);
   }
 }
 END_TEST

@@ -76,7 +76,7 @@ START_TEST(large_stars_poll) {
   ck_assert_int_eq(hr2di_stars_init(&stars, &alloc, s, COUNT, sizeof *s, &watch), HR2D_OK);
   ck_assert_uint_eq(stars.count, 1);
   ck_assert_uint_gt(watch.total, COUNT);
-  ck_assert_uint_le(watch.most, 5 * HR2DI_WATCH_SPAN);
+  ck_assert_uint_le(watch.max, 5 * HR2DI_WATCH_SPAN);
   hr2di_stars_clear(&stars);
   free(s);
 }

@@ -211,7 +211,7 @@ START_TEST(shorter_tables_are_taken) {
 END_TEST
 
 /* The least that is required, with subdivision: everything else is the default. */
-START_TEST(least_tables_work_as_the_defaults) {
+START_TEST(min_tables_work_as_the_defaults) {
   hr2d_oracle *oracle = cut_table(hr2d_oracle_size(), offsetof(hr2d_oracle, accept));
   hr2d_policy *policy = cut_table(hr2d_policy_original(), offsetof(hr2d_policy, acceptable));
   test_links t = test_make_links(test_named_scene("orth1"), oracle, NULL, policy, NULL);
@@ -379,8 +379,8 @@ END_TEST
 TEST_SUITE("linkset") {
   ADD_TESTS("tables", defaults_are_size_and_original, contexts_are_destroyed_once,
             unused_contexts_are_destroyed_too, tables_without_required_members_are_refused,
-            shorter_tables_are_taken, least_tables_work_as_the_defaults,
-            longer_tables_are_taken, without_memory_the_caller_keeps_the_contexts);
+            shorter_tables_are_taken, min_tables_work_as_the_defaults, longer_tables_are_taken,
+            without_memory_the_caller_keeps_the_contexts);
   ADD_TESTS("reading", a_new_set_is_empty, links_are_elements_and_their_exchange,
             bytes_are_those_of_blocks, direction_is_that_of_the_oracle_or_the_options,
             counts_sum_up_what_was_done, messages_stay_with_their_set);

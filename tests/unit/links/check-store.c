@@ -11,8 +11,8 @@ enum { MOST = 40000, SOME = 1024 };
 
 typedef struct kind {
   const char *name;
-  uint32_t spread;       /* neighbours have elements that are so far apart */
-  double most_if_packed; /* bytes per link */
+  uint32_t spread;      /* neighbours have elements that are so far apart */
+  double max_if_packed; /* bytes per link */
 } kind;
 
 static const kind kinds[] = {{"few elements", 100, 10.9},
@@ -61,9 +61,9 @@ static void fill(hr2di_store *store, const hr2d_allocator *alloc, const kind *of
       pair[k] = expected[done + k].pair;
       area[k] = expected[done + k].exchange_area;
     }
-    const uint64_t before = hr2di_store_bytes(store), most = hr2di_store_growth(store, some);
+    const uint64_t before = hr2di_store_bytes(store), max = hr2di_store_growth(store, some);
     ck_assert_int_eq(hr2di_store_add(store, alloc, pair, area, some), HR2D_OK);
-    ck_assert_uint_le(hr2di_store_bytes(store), before + most);
+    ck_assert_uint_le(hr2di_store_bytes(store), before + max);
   }
 }
 
@@ -83,7 +83,7 @@ START_TEST(what_was_added_comes_back) {
       const double each = (double)(store.held) / (double)(store.full * HR2DI_CHUNK_LINKS);
       printf("%s, %s: %.2f bytes per link of a full chunk\n", of->name,
              store.packs ? "packed" : "plain", store.packs ? each : 16.);
-      if (store.packs) ck_assert_double_lt(each, of->most_if_packed);
+      if (store.packs) ck_assert_double_lt(each, of->max_if_packed);
       if (store.packs) ck_assert(of->spread < 256 || each > 15.9);
     }
     hr2di_store_clear(&store, &alloc);

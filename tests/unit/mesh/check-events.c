@@ -93,17 +93,17 @@ static int sides_differ(hr2d_segment s, hr2d_point p, hr2d_point q) {
 }
 
 /* An eye on a patch. */
-typedef struct eye {
+typedef struct viewpoint {
   const room *r;
   hr2d_segment own;
   hr2d_point at;
-} eye;
+} viewpoint;
 
-static int is_own_line(const eye *e, hr2d_segment s) {
+static int is_own_line(const viewpoint *e, hr2d_segment s) {
   return fabs(height(e->own, s.a)) < TOUCH && fabs(height(e->own, s.b)) < TOUCH;
 }
 
-static int sees(const eye *e, hr2d_point v) {
+static int sees(const viewpoint *e, hr2d_point v) {
   if (height(e->own, v) < TOUCH) return 0;
   for (size_t k = 0; k < e->r->patches; k++) {
     const hr2d_segment s = e->r->patch[k], look = {e->at, v};
@@ -115,7 +115,7 @@ static int sees(const eye *e, hr2d_point v) {
 }
 
 /* The front that the eye sees in a direction; BLACK for a back. */
-static int face_towards(const eye *e, hr2d_point direction) {
+static int face_towards(const viewpoint *e, hr2d_point direction) {
   double nearest = HUGE_VAL;
   int face = SKY;
   for (size_t k = 0; k < e->r->patches; k++) {
@@ -141,7 +141,7 @@ typedef struct view {
   size_t count;
 } view;
 
-static const eye *sorting_eye;
+static const viewpoint *sorting_eye;
 
 static int by_direction(const void *left, const void *right) {
   const room *r = sorting_eye->r;
@@ -149,7 +149,7 @@ static int by_direction(const void *left, const void *right) {
                            r->vertex[*(const int *)right]);
 }
 
-static hr2d_point unit_towards(const eye *e, const int *seen, size_t count, size_t k) {
+static hr2d_point unit_towards(const viewpoint *e, const int *seen, size_t count, size_t k) {
   const hr2d_point to = k == 0 ? e->own.b : k <= count ? e->r->vertex[seen[k - 1]] : e->own.a;
   const hr2d_point d = minus(to, e->at);
   const double length = sqrt(dot(d, d));
@@ -158,7 +158,7 @@ static hr2d_point unit_towards(const eye *e, const int *seen, size_t count, size
 
 static view look(const room *r, size_t patch, double t) {
   const hr2d_segment s = r->patch[patch];
-  const eye e = {r, s, {(1 - t) * s.a.x + t * s.b.x, (1 - t) * s.a.y + t * s.b.y}};
+  const viewpoint e = {r, s, {(1 - t) * s.a.x + t * s.b.x, (1 - t) * s.a.y + t * s.b.y}};
   int *seen = calloc(r->vertices + 1, sizeof *seen);
   view v = {.item = calloc(2 * r->vertices + 1, sizeof *v.item)};
   size_t count = 0;
@@ -656,7 +656,7 @@ END_TEST
 
 /* Limits. */
 
-START_TEST(test_most) {
+START_TEST(test_max) {
   const hr2d_allocator alloc = hr2di_alloc_default();
   hr2d_scene *scene = test_scene(square, ROWS(square));
   const size_t count[] = {0, 10, 18};
@@ -666,8 +666,8 @@ START_TEST(test_most) {
                      HR2D_OK);
     ck_assert_uint_eq(found.count, count[g]);
     hr2di_events_clear(&found);
-    for (size_t most = 0; most < count[g]; most++) {
-      ck_assert_int_eq(hr2di_events_init(&found, scene, &alloc, g, most, NULL, NULL),
+    for (size_t max = 0; max < count[g]; max++) {
+      ck_assert_int_eq(hr2di_events_init(&found, scene, &alloc, g, max, NULL, NULL),
                        HR2D_EMAX_ELEMENTS);
       hr2di_events_clear(&found);
     }
@@ -717,6 +717,6 @@ TEST_SUITE("events") {
   REPEAT_TESTS(6, "random", test_generations);
   ADD_TESTS("hard", test_coincident, test_ends_apart);
   ADD_TESTS("cost", test_cost);
-  ADD_TESTS("limits", test_most);
+  ADD_TESTS("limits", test_max);
   REPEAT_TESTS(2, "limits", test_failures);
 }

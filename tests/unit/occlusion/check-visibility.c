@@ -25,10 +25,10 @@ static double shorter(const occluded_pair *p) {
 }
 
 static double longest(const occluded_pair *p) {
-  double most = fmax(plane_length(p->i), plane_length(p->j));
-  most = fmax(most, hypot(p->i.a.x - p->j.a.x, p->i.a.y - p->j.a.y));
-  for (size_t k = 0; k < p->count; k++) most = fmax(most, plane_length(p->occluder[k]));
-  return most;
+  double max = fmax(plane_length(p->i), plane_length(p->j));
+  max = fmax(max, hypot(p->i.a.x - p->j.a.x, p->i.a.y - p->j.a.y));
+  for (size_t k = 0; k < p->count; k++) max = fmax(max, plane_length(p->occluder[k]));
+  return max;
 }
 
 static double area_of(const occluded_pair *p) {
@@ -223,18 +223,18 @@ START_TEST(more_occluders_hide_more) {
 END_TEST
 
 /* Whether p counts as lying on the line of s, but does not. */
-static int counts_as_on(hr2d_segment s, hr2d_point p, double most) {
+static int counts_as_on(hr2d_segment s, hr2d_point p, double max) {
   const double x = s.b.x - s.a.x, y = s.b.y - s.a.y;
   const double off = fabs(x * (p.y - s.a.y) - y * (p.x - s.a.x)) / hypot(x, y);
-  return off < 0x1p-48 * most && hr2d_orientation(s.a, s.b, p) != 0;
+  return off < 0x1p-48 * max && hr2d_orientation(s.a, s.b, p) != 0;
 }
 
 /* An occluder of which an end counts as lying on the line of i or j may be left out. */
-static int has_doubtful_end(const occluded_pair *p, double most) {
+static int has_doubtful_end(const occluded_pair *p, double max) {
   for (size_t k = 0; k < p->count; k++) {
     const hr2d_segment w = p->occluder[k];
-    if (counts_as_on(p->i, w.a, most) || counts_as_on(p->i, w.b, most) ||
-        counts_as_on(p->j, w.a, most) || counts_as_on(p->j, w.b, most))
+    if (counts_as_on(p->i, w.a, max) || counts_as_on(p->i, w.b, max) ||
+        counts_as_on(p->j, w.a, max) || counts_as_on(p->j, w.b, max))
       return 1;
   }
   return 0;
@@ -258,13 +258,13 @@ START_TEST(cutting_changes_nothing) {
 }
 END_TEST
 
-static double off_by(randoms *r, double x, double most) {
-  return random_below(r, 2) ? x + random_between(r, -most, most) : x;
+static double off_by(randoms *r, double x, double max) {
+  return random_below(r, 2) ? x + random_between(r, -max, max) : x;
 }
 
-static hr2d_segment segment_off_by(randoms *r, hr2d_segment s, double most) {
-  return (hr2d_segment){{off_by(r, s.a.x, most), off_by(r, s.a.y, most)},
-                        {off_by(r, s.b.x, most), off_by(r, s.b.y, most)}};
+static hr2d_segment segment_off_by(randoms *r, hr2d_segment s, double max) {
+  return (hr2d_segment){{off_by(r, s.a.x, max), off_by(r, s.a.y, max)},
+                        {off_by(r, s.b.x, max), off_by(r, s.b.y, max)}};
 }
 
 /* Ends that should meet, or lie on others, miss them by anything down to an ulp. */

@@ -45,16 +45,16 @@ static nested nested_of(const hr2d_segment *i, const hr2d_segment *j) {
 }
 
 /* From x to y, and the distances of each from the line of the other. */
-typedef struct sight {
+typedef struct line_class {
   real dx, dy, r, before_i, before_j;
-} sight;
+} line_class;
 
-static sight sight_at(const nested *n, real s, real t) {
+static line_class sight_at(const nested *n, real s, real t) {
   const line *i = &n->i, *j = &n->j;
   s *= i->length;
   t *= j->length;
-  sight v = {.dx = j->x - i->x + (t * j->ux - s * i->ux),
-             .dy = j->y - i->y + (t * j->uy - s * i->uy)};
+  line_class v = {.dx = j->x - i->x + (t * j->ux - s * i->ux),
+                  .dy = j->y - i->y + (t * j->uy - s * i->uy)};
   v.r = hypotl(v.dx, v.dy);
   v.before_i = i->ux * v.dy - i->uy * v.dx;
   v.before_j = j->ux * v.dy - j->uy * v.dx;
@@ -62,7 +62,7 @@ static sight sight_at(const nested *n, real s, real t) {
 }
 
 static real kernel_at(const nested *n, real s, real t) {
-  const sight v = sight_at(n, s, t);
+  const line_class v = sight_at(n, s, t);
   if (!(v.before_i > 0 && v.before_j > 0)) return 0;
   return v.before_i / v.r * (v.before_j / v.r) / (2 * v.r);
 }
@@ -374,7 +374,7 @@ END_TEST
 /* Gc A_x A_y; NaN where rounding of the centres would spoil it. */
 static double spread_of(const pair *p) {
   const nested n = nested_of(&p->i, &p->j);
-  const sight v = sight_at(&n, 0.5, 0.5);
+  const line_class v = sight_at(&n, 0.5, 0.5);
   const real size =
       fabsl(n.i.x) + fabsl(n.i.y) + fabsl(n.j.x) + fabsl(n.j.y) + n.i.length + n.j.length;
   if (!(v.before_i > 1e-6 * v.r && v.before_j > 1e-6 * v.r && v.r > 1e-3 * size)) return NAN;
@@ -438,7 +438,7 @@ END_TEST
 
 /* Counts.  In the tables the rows for both orders of a pair follow the rows for one order; ε
    starts again there. */
-static void check_counts(const char *file, const hr2d_oracle *oracle, size_t least) {
+static void check_counts(const char *file, const hr2d_oracle *oracle, size_t min) {
   test_table t = test_read_table(file);
   int ordered = 0;
   size_t checked = 0;
@@ -468,7 +468,7 @@ static void check_counts(const char *file, const hr2d_oracle *oracle, size_t lea
     test_free_links(&links);
     checked++;
   }
-  ck_assert_uint_ge(checked, least);
+  ck_assert_uint_ge(checked, min);
   test_free_table(&t);
 }
 

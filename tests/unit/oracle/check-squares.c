@@ -88,13 +88,13 @@ START_TEST(margins_have_the_same_bits) {
   static sample s;
   for (int round = test_count(200); round > 0; round--) {
     unsigned char accepted[PAIRS];
-    double least = 1;
+    double min = 1;
     draw(&s, &r);
     for (size_t k = 0; k < PAIRS; k++) {
       const hr2d_batch one = only(&s.batch, k);
-      least = fmin(least, hr2di_squares_accept(&one, s.epsilon * s.epsilon, accepted));
+      min = fmin(min, hr2di_squares_accept(&one, s.epsilon * s.epsilon, accepted));
     }
-    ck_assert(hr2di_squares_accept(&s.batch, s.epsilon * s.epsilon, accepted) == least);
+    ck_assert(hr2di_squares_accept(&s.batch, s.epsilon * s.epsilon, accepted) == min);
   }
 }
 END_TEST

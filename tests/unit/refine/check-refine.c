@@ -43,10 +43,10 @@ static void check_row(const test_table *table, size_t row, int ordered) {
 
 static void check_table(const char *file, int ordered) {
   test_table table = test_read_table(file);
-  const double most = 1e8 * test_multiplier();
+  const double max = 1e8 * test_multiplier();
   size_t checked = 0;
   for (size_t row = 1; row < table.rows; row++) {
-    if (test_number(&table, row, "L") > most) continue;
+    if (test_number(&table, row, "L") > max) continue;
     check_row(&table, row, ordered);
     checked++;
   }

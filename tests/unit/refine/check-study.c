@@ -11,17 +11,17 @@
 enum { MOST_ROWS = 16 };
 
 /* One row's links may be this many; a multiplier of 0.01 still leaves several rows. */
-static double most_links(void) {
+static double max_links(void) {
   return 2e7 * test_multiplier() + 20000;
 }
 
 /* Runs the rows of one scene and one algorithm at once and compares. */
 static size_t check_group(const test_table *table, size_t first, size_t count) {
-  const double most = most_links();
+  const double max = max_links();
   double epsilon[MOST_ROWS];
   hr2d_study_row rows[MOST_ROWS];
   size_t chosen = 0, done = 77;
-  while (chosen < count && test_number(table, first + chosen, "L") <= most) {
+  while (chosen < count && test_number(table, first + chosen, "L") <= max) {
     epsilon[chosen] = test_number(table, first + chosen, "eps");
     chosen++;
   }

@@ -95,16 +95,16 @@ static double largest(const hr2d_segment *s) {
 }
 
 static double scene_scale(const drawing *d) {
-  double most = 0;
-  for (size_t k = 0; k < d->count; k++) most = fmax(most, largest(&d->s[k]));
-  return most;
+  double max = 0;
+  for (size_t k = 0; k < d->count; k++) max = fmax(max, largest(&d->s[k]));
+  return max;
 }
 
 /* Without squares that overflow where a long double is no longer than a double. */
 static real length(const hr2d_segment *s) {
   const real x = (real)s->b.x - s->a.x, y = (real)s->b.y - s->a.y;
-  const real most = fmaxl(fabsl(x), fabsl(y));
-  return most == 0 ? 0 : most * hypotl(x / most, y / most);
+  const real max = fmaxl(fabsl(x), fabsl(y));
+  return max == 0 ? 0 : max * hypotl(x / max, y / max);
 }
 
 /* How far p is to the left of the line of s. */
@@ -190,12 +190,12 @@ static int share_a_point(const hr2d_scene *scene, chain c, chain e) {
 }
 
 static real shortest_piece(const hr2d_scene *scene) {
-  real least = HUGE_VALL;
+  real min = HUGE_VALL;
   for (size_t k = 0; k < hr2d_scene_patches(scene); k++) {
     const hr2d_segment s = hr2d_scene_segment(scene, k);
-    least = fminl(least, length(&s));
+    min = fminl(min, length(&s));
   }
-  return least;
+  return min;
 }
 
 /* No two patches cross by more than a rounding. */
@@ -451,8 +451,8 @@ START_TEST(rounded_junctions_are_allowed) {
   unsigned long state = test_seed();
   size_t through = 0;
   real deepest = 0;
-  const size_t most = test_rounds(20000, 500);
-  for (size_t round = 0; round < most; round++) {
+  const size_t max = test_rounds(20000, 500);
+  for (size_t round = 0; round < max; round++) {
     const double scale = pow(10, uniform(&state, -6, 6));
     const double offset = round % 3 ? 0 : scale * pow(10, uniform(&state, -1, 5));
     drawing plan = {.count = 0}, d = {.count = 0};
@@ -487,8 +487,8 @@ START_TEST(rounded_junctions_are_allowed) {
     }
   }
   /* Negative control: without the rounding allowed for many would be refused. */
-  ck_assert_uint_gt(through, most / 2);
-  printf("%zu of %zu go through, by up to %.3Lg roundings\n", through, 4 * most,
+  ck_assert_uint_gt(through, max / 2);
+  printf("%zu of %zu go through, by up to %.3Lg roundings\n", through, 4 * max,
          deepest / ROUNDING);
 }
 END_TEST
@@ -617,7 +617,7 @@ END_TEST
 START_TEST(blurred_stars_are_cut) {
   unsigned long state = test_seed();
   size_t left_out = 0;
-  real most = 0;
+  real max = 0;
   for (size_t round = 0; round < test_rounds(600, 40); round++) {
     drawing d = {.count = 0};
     const double blur = ULP * pow(10, uniform(&state, 0, 4));
@@ -642,12 +642,12 @@ START_TEST(blurred_stars_are_cut) {
     }
     ck_assert_ldouble_le(fabsl(after - before), 0x1p-30L);
     left_out += fabsl(after - before) > 64 * ULP;
-    most = fmaxl(most, fabsl(after - before));
+    max = fmaxl(max, fabsl(after - before));
     check_apart(scene, scene_scale(&d));
     ck_assert_msg(check(scene) == HR2D_OK, "%s", hr2d_scene_message(scene));
     hr2d_scene_destroy(scene);
   }
-  printf("pieces left out in %zu scenes, %Lg of length\n", left_out, most);
+  printf("pieces left out in %zu scenes, %Lg of length\n", left_out, max);
 }
 END_TEST
 

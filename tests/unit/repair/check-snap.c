@@ -165,9 +165,9 @@ static double *exchange(const hr2d_scene *scene, double *leak) {
 }
 
 static double difference(const double *f, const double *g) {
-  double most = 0;
-  for (size_t k = 0; k < SIDES * SIDES; k++) most = fmax(most, fabs(f[k] - g[k]));
-  return most;
+  double max = 0;
+  for (size_t k = 0; k < SIDES * SIDES; k++) max = fmax(max, fabs(f[k] - g[k]));
+  return max;
 }
 
 /* An exchange area is half a sum of lengths of four strings, taut around ends of walls: moving

@@ -229,16 +229,16 @@ START_TEST(pairs_with_something_between) {
 }
 END_TEST
 
-/* Marks what light reaches over pairs that exchange more than `least`, or, `around` = 0, would
+/* Marks what light reaches over pairs that exchange more than `min`, or, `around` = 0, would
    if nothing were in the way. */
-static void spread(const drawing *d, double least, int around, int *lit) {
+static void spread(const drawing *d, double min, int around, int *lit) {
   size_t queue[MOST], count = 0;
   for (size_t k = 0; k < d->count; k++)
     if ((lit[k] = d->lit[k])) queue[count++] = k;
   for (size_t k = 0; k < count; k++)
     for (size_t j = 0; j < d->count; j++)
       if (!lit[j] && (around ? seen(d, queue[k], j)
-                             : hr2d_exchange_area(&d->s[queue[k]], &d->s[j])) > least) {
+                             : hr2d_exchange_area(&d->s[queue[k]], &d->s[j])) > min) {
         lit[j] = 1;
         queue[count++] = j;
       }

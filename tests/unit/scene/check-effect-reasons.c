@@ -234,8 +234,8 @@ static void check_occlusion(const lattice *p, size_t n, const hr2d_scene *scene,
 
 START_TEST(occlusion_is_what_lines_find) {
   unsigned long state = test_seed();
-  size_t clear = 0, occluded = 0, drawn = 0, least = test_rounds(1000, 10);
-  while (clear < least || occluded < least) {
+  size_t clear = 0, occluded = 0, drawn = 0, min = test_rounds(1000, 10);
+  while (clear < min || occluded < min) {
     lattice p[5];
     const size_t n = 3 + (size_t)lattice_random(&state, 3);
     lattice_draw(&state, p, n, 4 + lattice_random(&state, 6), 1 + lattice_random(&state, 5));

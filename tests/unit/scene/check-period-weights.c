@@ -43,26 +43,26 @@ static double sum(const double *weight, unsigned copies, const kink *f, double x
 
 /* What the extrapolation is off by, over the larger one of `checks` checks. */
 static double ratio(const hr2di_tail *t, unsigned copies, const kink *f, double x, int checks) {
-  double most = 0, off = sum(t->weight, copies, f, x);
-  for (int c = 0; c < checks; c++) most = fmax(most, fabs(sum(t->check[c], copies, f, x)));
+  double max = 0, off = sum(t->weight, copies, f, x);
+  for (int c = 0; c < checks; c++) max = fmax(max, fabs(sum(t->check[c], copies, f, x)));
   for (double k = copies + 1; k * x < 1; k++) off -= f->term(k, x);
-  return most > 0 ? fabs(off) / most : 0;
+  return max > 0 ? fabs(off) / max : 0;
 }
 
 static double worst(unsigned copies, const kink *f, int checks) {
   hr2di_tail t;
-  double most = 0;
+  double max = 0;
   hr2di_tail_set(&t, copies, f->power);
   for (int k = 5; k < 330; k++)
-    most = fmax(most, ratio(&t, copies, f, k / 100. / copies, checks));
-  return most;
+    max = fmax(max, ratio(&t, copies, f, k / 100. / copies, checks));
+  return max;
 }
 
 START_TEST(kinks_are_no_worse_than_the_bound) {
   for (unsigned copies = 1; copies <= HR2DI_MOST_COPIES; copies *= 2)
     for (int k = 0; k < KINKS; k++) {
-      const double most = worst(copies, &kinks[k], HR2DI_TAIL_CHECKS);
-      ck_assert_msg(most <= HR2DI_TAIL_BOUND, "%u images, kink %d: %g", copies, k, most);
+      const double max = worst(copies, &kinks[k], HR2DI_TAIL_CHECKS);
+      ck_assert_msg(max <= HR2DI_TAIL_BOUND, "%u images, kink %d: %g", copies, k, max);
     }
   ck_assert_double_gt(worst(32, &kinks[3], HR2DI_TAIL_CHECKS), 0.8 * HR2DI_TAIL_BOUND);
 }
@@ -128,22 +128,22 @@ START_TEST(weights_have_a_bound) {
   for (unsigned copies = 1; copies <= HR2DI_MOST_COPIES; copies *= 2) {
     hr2di_motion motion[2 * HR2DI_MOST_COPIES + 1] = {{0}};
     hr2di_symmetry s = {.motion = motion, .motions = 2 * copies + 1, .copies = copies};
-    double most = 1;
+    double max = 1;
     s.by.periodic = 1;
     for (size_t k = 0; k < s.motions; k++) {
       motion[k].periods = (int)k - (int)copies;
       motion[k].weight = 1;
     }
-    ck_assert_double_eq(hr2di_symmetry_most(&s), 1);
+    ck_assert_double_eq(hr2di_symmetry_max(&s), 1);
     hr2di_symmetry_set_weights(&s);
     for (size_t k = 0; k < s.motions; k++) {
-      most = fmax(most, fabs(motion[k].weight));
-      for (int c = 0; c < HR2DI_TAIL_CHECKS; c++) most = fmax(most, fabs(motion[k].check[c]));
+      max = fmax(max, fabs(motion[k].weight));
+      for (int c = 0; c < HR2DI_TAIL_CHECKS; c++) max = fmax(max, fabs(motion[k].check[c]));
     }
-    ck_assert_double_eq(hr2di_symmetry_most(&s), most);
-    ck_assert_double_gt(most, 1);
-    ck_assert_double_le(most, RANKS * (double)s.motions);
-    printf("%u copies: weights up to %g\n", copies, most);
+    ck_assert_double_eq(hr2di_symmetry_max(&s), max);
+    ck_assert_double_gt(max, 1);
+    ck_assert_double_le(max, RANKS * (double)s.motions);
+    printf("%u copies: weights up to %g\n", copies, max);
   }
 }
 END_TEST

@@ -540,8 +540,8 @@ START_TEST(callbacks_end_the_search) {
   hr2d_solution *solution = NULL;
   hr2d_status status = HR2D_STOPPED;
   int asked = 0;
-  for (int most = 0; status == HR2D_STOPPED && most < 100000; most += 1 + most / 8) {
-    int left = most;
+  for (int max = 0; status == HR2D_STOPPED && max < 100000; max += 1 + max / 8) {
+    int left = max;
     hr2d_scene_set_progress(scene, count_or_stop, &left);
     status = hr2d_solve_to(scene, NULL, &solution, NULL);
     ck_assert((solution == NULL) == (status != HR2D_OK));

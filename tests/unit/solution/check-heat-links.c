@@ -284,8 +284,8 @@ START_TEST(callbacks_end_the_solve) {
   int asked = 0;
   options.progress = count_or_stop;
   const int steps = (int)test_some(8, 2);
-  for (int most = 0; status == HR2D_STOPPED && most < 100000; most += 1 + most / steps) {
-    int left = most;
+  for (int max = 0; status == HR2D_STOPPED && max < 100000; max += 1 + max / steps) {
+    int left = max;
     options.progress_ctx = &left;
     status = hr2d_solve(a.links, &options, &a.solution);
     ck_assert((a.solution == NULL) == (status != HR2D_OK));

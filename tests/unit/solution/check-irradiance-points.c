@@ -58,15 +58,15 @@ typedef struct truth {
   size_t *patch;                     /* of each point */
   double *t;
   double (*value)[2][SWEPT_BANDS];
-  double most_average[2][SWEPT_BANDS], most[2][SWEPT_BANDS];
+  double max_average[2][SWEPT_BANDS], max[2][SWEPT_BANDS];
 } truth;
 
 static void put(const twin *w, size_t patch, const double *irradiance,
-                double value[2][SWEPT_BANDS], double most[2][SWEPT_BANDS]) {
+                double value[2][SWEPT_BANDS], double max[2][SWEPT_BANDS]) {
   for (size_t b = 0; b < w->scene.bands; b++) {
     value[0][b] = w->light[patch].emission[b] + w->light[patch].reflectance[b] * irradiance[b];
     value[1][b] = irradiance[b];
-    for (int h = 0; h < 2; h++) most[h][b] = fmax(most[h][b], value[h][b]);
+    for (int h = 0; h < 2; h++) max[h][b] = fmax(max[h][b], value[h][b]);
   }
 }
 
@@ -93,7 +93,7 @@ static truth find_truth(const twin *w, const swept_solution *s, randoms r, size_
   double h[SWEPT_BANDS];
   for (size_t p = 0; p < n; p++) {
     swept_average(s, p, h);
-    put(w, p, h, x.average[p], x.most_average);
+    put(w, p, h, x.average[p], x.max_average);
   }
   for (size_t p = 0, k = 0; p < n; p++) {
     size_t events;
@@ -102,7 +102,7 @@ static truth find_truth(const twin *w, const swept_solution *s, randoms r, size_
       x.patch[k] = p;
       x.t[k] = draw_place(&r, event, events);
       swept_at(s, p, x.t[k], h);
-      put(w, p, h, x.value[k], x.most);
+      put(w, p, h, x.value[k], x.max);
     }
     free(event);
   }
@@ -122,8 +122,8 @@ typedef struct found {
   size_t worst[2];           /* points */
 } found;
 
-static double beyond(const truth *x, double is, double right, double most) {
-  return fmax(fabs(is - right) - x->known * most, 0);
+static double beyond(const truth *x, double is, double right, double max) {
+  return fmax(fabs(is - right) - x->known * max, 0);
 }
 
 static void compare_averages(const truth *x, const hr2d_solution *s, found *f) {
@@ -131,10 +131,10 @@ static void compare_averages(const truth *x, const hr2d_solution *s, found *f) {
     for (size_t b = 0; b < x->bands; b++) {
       const double is[] = {hr2d_solution_average(s, p, b), hr2d_solution_irradiance(s, p, b)};
       for (int h = 0; h < 2; h++) {
-        const double right = x->average[p][h][b], most = x->most_average[h][b];
-        const double off = beyond(x, is[h], right, most);
+        const double right = x->average[p][h][b], max = x->max_average[h][b];
+        const double off = beyond(x, is[h], right, max);
         ck_assert_double_ge(is[h], 0);
-        if (off > 0) f->average[h] = fmax(f->average[h], off / fmax(right, HR2D_FLOOR * most));
+        if (off > 0) f->average[h] = fmax(f->average[h], off / fmax(right, HR2D_FLOOR * max));
       }
     }
 }
@@ -147,11 +147,11 @@ static void compare_points(const truth *x, const hr2d_solution *s, found *f) {
     ck_assert_int_eq(hr2d_solution_gather_irradiance(s, x->patch[k], t, 1, is[1]), HR2D_OK);
     for (int h = 0; h < 2; h++)
       for (size_t b = 0; b < x->bands; b++) {
-        const double most = x->most[h][b];
-        const double off = beyond(x, is[h][b], x->value[k][h][b], most);
+        const double max = x->max[h][b];
+        const double off = beyond(x, is[h][b], x->value[k][h][b], max);
         ck_assert_double_ge(is[h][b], 0);
-        if (!(off > f->sup[h] * most)) continue;
-        f->sup[h] = off / most;
+        if (!(off > f->sup[h] * max)) continue;
+        f->sup[h] = off / max;
         f->worst[h] = k;
       }
   }
@@ -317,11 +317,11 @@ START_TEST(two_meshes_agree) {
     truth x = find_truth(&w, one, r, many() / 4), y = find_truth(&w, other, r, many() / 4);
     for (size_t q = 0; q < x.points; q++)
       for (size_t b = 0; b < x.bands; b++)
-        ck_assert_double_le(fabs(x.value[q][1][b] - y.value[q][1][b]), x.known * y.most[1][b]);
+        ck_assert_double_le(fabs(x.value[q][1][b] - y.value[q][1][b]), x.known * y.max[1][b]);
     for (size_t p = 0; p < x.patches; p++)
       for (size_t b = 0; b < x.bands; b++)
         ck_assert_double_le(fabs(x.average[p][1][b] - y.average[p][1][b]),
-                            x.known * y.most_average[1][b]);
+                            x.known * y.max_average[1][b]);
     free_truth(&x);
     free_truth(&y);
     swept_destroy(one);
@@ -372,7 +372,7 @@ START_TEST(a_wrong_value_is_noticed) {
   x.average[2][1][0] *= 1 + 1e-6;
   ck_assert_int_eq(is_violated(scene, &x, 1e-9), 1);
   x.average[2][1][0] /= 1 + 1e-6;
-  x.value[50][1][0] += 1e-3 * x.most[1][0];
+  x.value[50][1][0] += 1e-3 * x.max[1][0];
   ck_assert_int_eq(is_violated(scene, &x, 1e-9), 1);
   free_truth(&x);
   swept_destroy(s);

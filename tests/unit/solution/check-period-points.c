@@ -161,10 +161,10 @@ START_TEST(endless_plates) {
     ck_assert_int_eq(hr2d_solution_gather_irradiance(solution, 2, places, POINTS, h), HR2D_OK);
     ck_assert_int_eq(hr2d_solution_gather(solution, 2, places, POINTS, b), HR2D_OK);
     const double brightest = 1 + p.below * plates_irradiance(&p, p.lamp / 2),
-                 most = plates_irradiance(&p, p.lamp / 2);
+                 max = plates_irradiance(&p, p.lamp / 2);
     for (int m = 0; m < POINTS; m++) {
       const double right = plates_irradiance(&p, p.step * (1 - places[m]));
-      ck_assert_msg(fabs(h[m] - right) <= account.irradiance_sup.bound * most + 1e-14,
+      ck_assert_msg(fabs(h[m] - right) <= account.irradiance_sup.bound * max + 1e-14,
                     "plates %zu: H %.17g at %g, not %.17g, bound %g", k, h[m], places[m], right,
                     account.irradiance_sup.bound);
       ck_assert_msg(fabs(b[m] - p.above * right) <= account.sup.bound * brightest + 1e-14,

@@ -29,7 +29,7 @@ static hr2d_scene *draw_room(randoms *r, int open) {
   return scene;
 }
 
-static double least_of(const test_links *t, int closure) {
+static double min_of(const test_links *t, int closure) {
   hr2d_solution *solution = test_solve(t, closure);
   const hr2d_power p = hr2d_solution_power(solution, 0);
   ck_assert_double_eq_tol(p.absorbed + p.escaped, p.emitted + p.received, 1e-12);
@@ -48,7 +48,7 @@ static void check_room(randoms *r, int open) {
   for (unsigned order = 1; order <= 5; order++) {
     ck_assert_int_eq(hr2d_hierarchy_set_order(t.hierarchy, order), HR2D_OK);
     for (int closure = 0; closure < 2; closure++) {
-      const double received = least_of(&t, closure);
+      const double received = min_of(&t, closure);
       ck_assert_msg(open ? received > 1e-3 : received == 0, "order %u, closure %d: %g", order,
                     closure, received);
     }

@@ -31,19 +31,19 @@ static hr2d_solution *solve(hr2d_linkset *links, double tolerance, double relati
   hr2d_solve_options options = HR2D_SOLVE_OPTIONS_INIT;
   options.tolerance = tolerance;
   hr2di_equation_how how = hr2di_equation_how_of(links);
-  how.enough = (hr2di_enough){.part = relative, .floor = FLOOR};
+  how.enough = (hr2di_stopping_test){.part = relative, .floor = FLOOR};
   ck_assert_int_eq(hr2di_solve(links, &how, &options, &solution), HR2D_OK);
   return solution;
 }
 
 /* The largest relative error of an average of H. */
-static double most_off(const hr2d_solution *s, const hr2d_solution *exact, size_t patches) {
-  double most = 0;
+static double max_off(const hr2d_solution *s, const hr2d_solution *exact, size_t patches) {
+  double max = 0;
   for (size_t k = 0; k < patches; k++) {
     const double h = hr2d_solution_irradiance(exact, k, 0);
-    most = fmax(most, fabs(hr2d_solution_irradiance(s, k, 0) - h) / h);
+    max = fmax(max, fabs(hr2d_solution_irradiance(s, k, 0) - h) / h);
   }
-  return most;
+  return max;
 }
 
 START_TEST(dark_patches_are_right) {
@@ -54,12 +54,12 @@ START_TEST(dark_patches_are_right) {
   for (double part = 1e-2; part > 1e-9; part *= 0.01) {
     hr2d_solution *norm = solve(graded.links, part, 0);
     hr2d_solution *dark = solve(graded.links, 1e-15, part);
-    const double off = most_off(dark, exact, n);
+    const double off = max_off(dark, exact, n);
     printf("%.0e: off by %.1e after %llu gathers, by the norm %.1e\n", part, off,
-           (unsigned long long)hr2d_solution_work(dark).gathers, most_off(norm, exact, n));
+           (unsigned long long)hr2d_solution_work(dark).gathers, max_off(norm, exact, n));
     ck_assert_double_le(off, 4 * part);
     ck_assert_uint_lt(hr2d_solution_work(dark).gathers, hr2d_solution_work(exact).gathers);
-    ck_assert_double_gt(most_off(norm, exact, n), 4 * part); /* the norm is not enough */
+    ck_assert_double_gt(max_off(norm, exact, n), 4 * part); /* the norm is not enough */
     hr2d_solution_destroy(norm);
     hr2d_solution_destroy(dark);
   }

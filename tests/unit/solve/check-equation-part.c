@@ -4,7 +4,7 @@
 #include <math.h>
 
 #include "estimate/graded-solve.h"
-#include "solve/equation-part.h"
+#include "solve/reduced-equation.h"
 #include "support/support.h"
 
 enum { ORDER = 6, FEW = 3, CORNER = 1 };
@@ -37,7 +37,7 @@ static const char *const names[] = {"square_rho0.9", "orth_touch_rho0.7",
    `count` on are 0. */
 static double difference(hr2di_equation *eq, hr2di_equation *part, size_t count, randoms *r) {
   const size_t width = eq->transport.width, low = part->transport.width;
-  double worst = 0, most = 0;
+  double worst = 0, max = 0;
   for (size_t k = 0; k < eq->field; k++)
     eq->radiosity[k] = k % width < count ? random_between(r, -1, 1) : 0;
   hr2di_equation_part_take(part, eq, eq->radiosity, part->radiosity);
@@ -46,9 +46,9 @@ static double difference(hr2di_equation *eq, hr2di_equation *part, size_t count,
   for (size_t k = 0; k < part->field; k++) {
     const double h = eq->irradiance[k / low * width + k % low];
     worst = fmax(worst, fabs(h - part->irradiance[k]));
-    most = fmax(most, fabs(h));
+    max = fmax(max, fabs(h));
   }
-  return worst / most;
+  return worst / max;
 }
 
 START_TEST(it_is_nearly_the_operator_between_projections) {

@@ -108,12 +108,12 @@ static answer read(const hr2d_solution *solution) {
 }
 
 static double largest_difference(const answer *a, const answer *b) {
-  double most = 0, off = 0;
+  double max = 0, off = 0;
   for (size_t k = 0; k < BASE * BANDS; k++) {
-    most = fmax(most, fmax(b->b[k], b->h[k]));
+    max = fmax(max, fmax(b->b[k], b->h[k]));
     off = fmax(off, fmax(fabs(a->b[k] - b->b[k]), fabs(a->h[k] - b->h[k])));
   }
-  return off / most;
+  return off / max;
 }
 
 /* The powers of the unfolded scene are those of the cell for each image. */
@@ -121,11 +121,11 @@ static double power_difference(const answer *a, const answer *b, double images) 
   double off = 0;
   for (size_t k = 0; k < BANDS; k++) {
     const hr2d_power p = a->power[k], q = b->power[k];
-    const double most = q.emitted + q.received;
-    off = fmax(off, fabs(images * p.emitted - q.emitted) / most);
-    off = fmax(off, fabs(images * p.received - q.received) / most);
-    off = fmax(off, fabs(images * p.absorbed - q.absorbed) / most);
-    off = fmax(off, fabs(images * p.escaped - q.escaped) / most);
+    const double max = q.emitted + q.received;
+    off = fmax(off, fabs(images * p.emitted - q.emitted) / max);
+    off = fmax(off, fabs(images * p.received - q.received) / max);
+    off = fmax(off, fabs(images * p.absorbed - q.absorbed) / max);
+    off = fmax(off, fabs(images * p.escaped - q.escaped) / max);
   }
   return off;
 }

@@ -77,14 +77,14 @@ START_TEST(threads_change_no_bit) {
     ck_assert_int_eq(memcmp(found, expected, count * sizeof *found), 0);
     free(found);
   }
-  double least = expected[0], most = expected[0];
+  double min = expected[0], max = expected[0];
   for (size_t e = 0; e < count; e++) {
-    if (expected[e] < least) least = expected[e];
-    if (expected[e] > most) most = expected[e];
+    if (expected[e] < min) min = expected[e];
+    if (expected[e] > max) max = expected[e];
   }
   printf("%llu links, %zu elements, B from %.3g to %.3g\n",
-         (unsigned long long)hr2d_linkset_size(t.links), count / bands, least, most);
-  ck_assert(most > least);
+         (unsigned long long)hr2d_linkset_size(t.links), count / bands, min, max);
+  ck_assert(max > min);
   free(expected);
   test_free_links(&t);
 }

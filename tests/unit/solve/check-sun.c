@@ -337,7 +337,7 @@ START_TEST(grids_have_sharp_shadows) {
   hr2d_field_values values = HR2D_FIELD_VALUES_INIT;
   values.mean = mean;
   ck_assert_int_eq(hr2d_field_on_grid(solution, &grid, NULL, &values, NULL), HR2D_OK);
-  double worst = 0, most = 0;
+  double worst = 0, max = 0;
   for (int k = 0; k < SIDE * SIDE; k++) {
     const hr2d_point at = {-3 + 8. * (k % SIDE) / (SIDE - 1),
                            0.05 + 1.95 * (k / SIDE) / (SIDE - 1)};
@@ -347,9 +347,9 @@ START_TEST(grids_have_sharp_shadows) {
     ck_assert_int_eq(hr2d_field_at(solution, &at, 1, NULL, &one), HR2D_OK);
     if (isnan(exact)) continue;
     worst = fmax(worst, fabs(exact - mean[k]));
-    most = fmax(most, exact);
+    max = fmax(max, exact);
   }
-  ck_assert_double_le(worst, 1e-3 * most);
+  ck_assert_double_le(worst, 1e-3 * max);
   hr2d_solution_destroy(solution);
   hr2d_scene_destroy(scene);
 }

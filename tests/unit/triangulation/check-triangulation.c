@@ -109,11 +109,11 @@ START_TEST(lattices_are_triangulated_exactly) {
 END_TEST
 
 static double largest_of(const hr2d_segment *wall, size_t count) {
-  double most = 0;
+  double max = 0;
   for (size_t k = 0; k < count; k++)
-    most = fmax(most, fmax(fmax(fabs(wall[k].a.x), fabs(wall[k].a.y)),
-                           fmax(fabs(wall[k].b.x), fabs(wall[k].b.y))));
-  return most;
+    max = fmax(max, fmax(fmax(fabs(wall[k].a.x), fabs(wall[k].a.y)),
+                         fmax(fabs(wall[k].b.x), fabs(wall[k].b.y))));
+  return max;
 }
 
 /* z -> (u + iv)z + (x + iy) */
@@ -349,7 +349,7 @@ START_TEST(copies_are_named) {
 END_TEST
 
 /* The pieces of a wall that is cut have later numbers than the walls behind it. */
-START_TEST(triangles_know_the_least_of_a_ring) {
+START_TEST(triangles_know_the_min_of_a_ring) {
   const hr2d_segment wall[] = {
       {{0, 0}, {4, 0}}, {{1, 1}, {1, 0x1p-52}}, {{4, 0}, {1, 0x1p-52}}};
   hr2di_triangulation t;
@@ -420,7 +420,7 @@ static hr2d_status ask(void *ctx, const hr2d_progress *progress) {
 }
 
 static hr2d_status watched(const hr2d_segment *wall, size_t count, witness *w, uint64_t span,
-                           uint64_t *most) {
+                           uint64_t *max) {
   test_memory memory = {.until_failure = -1};
   const hr2d_allocator hooks = test_hooks(&memory);
   hr2di_watch watch;
@@ -432,7 +432,7 @@ static hr2d_status watched(const hr2d_segment *wall, size_t count, witness *w, u
                                                       HR2DI_UNITS, &conflict, &watch);
   hr2di_triangulation_clear(&t);
   ck_assert_int_eq(memory.live, 0);
-  *most = watch.most;
+  *max = watch.max;
   return status;
 }
 
@@ -442,21 +442,21 @@ START_TEST(it_can_be_stopped) {
   static hr2d_segment wall[SQUARES];
   const size_t count = draw_squares(&r, wall, SIDE);
   witness all = {0};
-  uint64_t most;
-  ck_assert_int_eq(watched(wall, count, &all, HR2DI_WATCH_SPAN, &most), HR2D_OK);
-  ck_assert(most < 2 * HR2DI_WATCH_SPAN && all.asks > SQUARES / 1000);
+  uint64_t max;
+  ck_assert_int_eq(watched(wall, count, &all, HR2DI_WATCH_SPAN, &max), HR2D_OK);
+  ck_assert(max < 2 * HR2DI_WATCH_SPAN && all.asks > SQUARES / 1000);
   for (unsigned long k = 1; k <= all.asks; k++) {
     witness w = {.stop_at = k};
-    ck_assert_int_eq(watched(wall, count, &w, HR2DI_WATCH_SPAN, &most), REFUSAL);
+    ck_assert_int_eq(watched(wall, count, &w, HR2DI_WATCH_SPAN, &max), REFUSAL);
     ck_assert_uint_eq(w.asks, k);
   }
   hr2d_segment kinds[20 * 12];
   const size_t few = draw_all_kinds(&r, kinds, 20);
   witness every = {0};
-  ck_assert_int_eq(watched(kinds, few, &every, 1, &most), HR2D_OK);
+  ck_assert_int_eq(watched(kinds, few, &every, 1, &max), HR2D_OK);
   for (unsigned long k = 1; k <= every.asks; k += 1 + k / 100) {
     witness w = {.stop_at = k};
-    ck_assert_int_eq(watched(kinds, few, &w, 1, &most), REFUSAL);
+    ck_assert_int_eq(watched(kinds, few, &w, 1, &max), REFUSAL);
   }
 }
 END_TEST
@@ -523,7 +523,7 @@ END_TEST
 
 TEST_SUITE("triangulation") {
   ADD_TESTS("exact", lattices_are_triangulated_exactly, squares_are_triangulated,
-            points_have_no_edges, copies_are_named, triangles_know_the_least_of_a_ring);
+            points_have_no_edges, copies_are_named, triangles_know_the_min_of_a_ring);
   ADD_TESTS("roundings", roundings_change_nothing, rounded_feet_are_joined,
             tiny_walls_keep_their_shape);
   ADD_TESTS("failures", too_many_walls_are_refused, it_can_be_stopped);

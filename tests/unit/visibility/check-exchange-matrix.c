@@ -351,13 +351,13 @@ START_TEST(threads_change_no_bit) {
 }
 END_TEST
 
-typedef struct report {
+typedef struct reports {
   int calls, until_stop;
   double fraction;
-} report;
+} reports;
 
-static hr2d_status told(void *ctx, const hr2d_progress *progress) {
-  report *r = ctx;
+static hr2d_status report(void *ctx, const hr2d_progress *progress) {
+  reports *r = ctx;
   ck_assert_str_eq(progress->phase, "factors");
   ck_assert_uint_eq(progress->struct_size, sizeof *progress);
   ck_assert(progress->fraction >= r->fraction && progress->fraction <= 1);
@@ -372,14 +372,14 @@ START_TEST(progress_is_told_and_may_stop) {
   const size_t n = hr2d_scene_patches(scene);
   double *expected = matrix_of(scene, NULL), *area = malloc(n * n * sizeof *area);
   ck_assert_ptr_nonnull(area);
-  report r = {0};
+  reports r = {0};
   hr2d_matrix_options options = HR2D_MATRIX_OPTIONS_INIT;
-  options.progress = told;
+  options.progress = report;
   options.progress_ctx = &r;
   ck_assert_int_eq(hr2d_exchange_matrix(scene, &options, area, NULL), HR2D_OK);
   ck_assert_int_ge(r.calls, 1);
   ck_assert_mem_eq(area, expected, n * n * sizeof *area);
-  r = (report){.until_stop = 1};
+  r = (reports){.until_stop = 1};
   ck_assert_int_eq(hr2d_exchange_matrix(scene, &options, area, NULL), HR2D_STOPPED);
   ck_assert_int_eq(r.calls, 1);
   free(area);

@@ -174,13 +174,13 @@ static double largest_coordinate(const hr2d_scene *scene) {
 /* The worst row of a closed room, as a part of its bound. */
 static double worst_row_of(const hr2d_scene *scene, const double *area) {
   const size_t n = hr2d_scene_patches(scene);
-  const double least = 64 * DBL_EPSILON * largest_coordinate(scene);
+  const double min = 64 * DBL_EPSILON * largest_coordinate(scene);
   double worst = 0;
   for (size_t i = 0; i < n; i++) {
     const double length = hr2d_scene_length(scene, i);
     double sum = -length;
     for (size_t j = 0; j < n; j++) sum += area[i * n + j];
-    worst = fmax(worst, fabs(sum) / (1e-13 * length + least));
+    worst = fmax(worst, fabs(sum) / (1e-13 * length + min));
   }
   return worst;
 }

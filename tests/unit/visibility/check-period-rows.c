@@ -74,7 +74,7 @@ static double entry(const rows *r, size_t i, size_t k) {
 
 static const size_t sizes[] = {20, 450, 600};
 static const size_t images[] = {33, 9, 5};
-static const double least[] = {1e-9, 1e-5, 1e-4}; /* what the rows are off, of a patch */
+static const double min[] = {1e-9, 1e-5, 1e-4}; /* what the rows are off, of a patch */
 
 START_TEST(rows_tell_what_they_are_off) {
   const size_t n = sizes[_i];
@@ -90,8 +90,8 @@ START_TEST(rows_tell_what_they_are_off) {
     ck_assert_double_le(off, r.bound[i]);
     ck_assert_double_le(r.estimate[i], r.bound[i]);
     ck_assert_double_le(off, 4 * r.estimate[i]);
-    ck_assert_double_ge(off, least[_i] * length);
-    ck_assert_double_le(r.bound[i], 4e4 * least[_i] * length);
+    ck_assert_double_ge(off, min[_i] * length);
+    ck_assert_double_le(r.bound[i], 4e4 * min[_i] * length);
   }
   forget(&r);
   hr2d_scene_destroy(scene);

@@ -126,15 +126,15 @@ static real distance_to(spot a, spot b, real angle) {
 
 /* Patches along the line of the point's own, such as its other side, are not in front of it. */
 static real nearest(const stage *s, const sweep_frame *f, real angle) {
-  real least = HUGE_VALL;
+  real min = HUGE_VALL;
   for (size_t k = 0; k < s->all.count; k++) {
     const spot a = sweep_local(f, sweep_place(&s->all, k, 0)),
                b = sweep_local(f, sweep_place(&s->all, k, 1));
     if (a.y < 1e-12L && b.y < 1e-12L) continue;
     const real far = distance_to(a, b, angle);
-    least = far < least ? far : least;
+    min = far < min ? far : min;
   }
-  return least;
+  return min;
 }
 
 static spot spot_of(hr2d_point p) {

@@ -19,18 +19,18 @@
 #include "support/support.h"
 #include "visibility/point-view.h"
 
-static hr2di_viewer *viewer_of(const hr2d_scene *scene) {
+static hr2di_point_viewer *viewer_of(const hr2d_scene *scene) {
   const hr2d_allocator alloc = hr2di_alloc_default();
-  hr2di_viewer *viewer = NULL;
-  ck_assert_int_eq(hr2di_viewer_create(scene, &alloc, NULL, &viewer), HR2D_OK);
+  hr2di_point_viewer *viewer = NULL;
+  ck_assert_int_eq(hr2di_point_viewer_create(scene, &alloc, NULL, &viewer), HR2D_OK);
   return viewer;
 }
 
-static hr2di_view_from look(hr2di_viewer *viewer, size_t patch, double t) {
+static hr2di_view_from look(hr2di_point_viewer *viewer, size_t patch, double t) {
   hr2di_view_from seen;
   ck_assert_int_eq(hr2di_view_at(viewer, patch, t, &seen), HR2D_OK);
   for (size_t k = 0; k < seen.count; k++) {
-    const hr2di_glimpse *g = &seen.glimpse[k];
+    const hr2di_visible_interval *g = &seen.interval[k];
     ck_assert(g->patch != patch && 0 <= g->from && g->from < g->to && g->to <= 1);
     ck_assert(k == 0 || g[-1].patch < g->patch ||
               (g[-1].patch == g->patch && g[-1].to <= g->from + 2 * DBL_EPSILON));
@@ -41,7 +41,7 @@ static hr2di_view_from look(hr2di_viewer *viewer, size_t patch, double t) {
 /* A scene, and what the sweep takes of it. */
 typedef struct stage {
   hr2d_scene *scene;
-  hr2di_viewer *viewer;
+  hr2di_point_viewer *viewer;
   size_t n;
   double (*at)[4], size; /* the largest coordinate */
   sweep_span *span;
@@ -63,7 +63,7 @@ static stage stage_of(hr2d_scene *scene) {
 }
 
 static void stage_clear(stage *s) {
-  hr2di_viewer_destroy(s->viewer);
+  hr2di_point_viewer_destroy(s->viewer);
   hr2d_scene_destroy(s->scene);
   free(s->at);
   free(s->span);
@@ -90,7 +90,7 @@ static double compare_between(stage *s, const hr2di_view_from *seen, size_t patc
   sweep(s, patch, t, border);
   double worst = fabs(seen->back - s->sine[s->n]);
   for (size_t k = 0; k < seen->count; k++)
-    s->sine[seen->glimpse[k].patch] -= seen->glimpse[k].sine;
+    s->sine[seen->interval[k].patch] -= seen->interval[k].sine;
   for (size_t k = 0; k < s->n; k++) worst = fmax(worst, fabs(s->sine[k]));
   return worst;
 }
@@ -101,9 +101,9 @@ static double compare(stage *s, const hr2di_view_from *seen, size_t patch, real 
   return fmax(worst, fabs(seen->sky - s->sine[s->n + 1]));
 }
 
-static void expect_near(const plan *p, double error, double most, size_t patch, double t) {
-  if (!(error <= most)) plan_print(p);
-  ck_assert_msg(error <= most, "patch %zu at %a is off by %g", patch, t, error);
+static void expect_near(const plan *p, double error, double max, size_t patch, double t) {
+  if (!(error <= max)) plan_print(p);
+  ck_assert_msg(error <= max, "patch %zu at %a is off by %g", patch, t, error);
 }
 
 /* In closed rooms (1) and open scenes (0). */
@@ -239,7 +239,7 @@ START_TEST(a_moved_patch_is_noticed) {
   int noticed = 0;
   for (size_t patch = 0; patch < s.n; patch++) {
     const hr2di_view_from seen = look(s.viewer, patch, .3);
-    const size_t other = seen.glimpse[seen.count / 2].patch;
+    const size_t other = seen.interval[seen.count / 2].patch;
     s.at[other][0] += 1e-9;
     s.at[other][3] -= 1e-9;
     noticed += compare(&s, &seen, patch, .3) > 1e-13;
@@ -282,22 +282,22 @@ START_TEST(the_same_bits_every_time) {
   randoms r = randoms_stream(test_seed(), 50);
   plan p = draw_squares(&r, 8, 1);
   hr2d_scene *scene = plan_try_scene(&p, NULL);
-  hr2di_viewer *old = viewer_of(scene);
+  hr2di_point_viewer *old = viewer_of(scene);
   for (int k = test_count(500); k > 0; k--) {
     const size_t patch = (size_t)(random_bits(&r) % hr2d_scene_patches(scene));
     const double t = random_unit(&r);
-    hr2di_viewer *fresh = viewer_of(scene);
+    hr2di_point_viewer *fresh = viewer_of(scene);
     const hr2di_view_from one = look(old, patch, t), other = look(fresh, patch, t);
     ck_assert_uint_eq(one.count, other.count);
     for (size_t g = 0; g < one.count; g++)
-      ck_assert(one.glimpse[g].patch == other.glimpse[g].patch &&
-                one.glimpse[g].from == other.glimpse[g].from &&
-                one.glimpse[g].to == other.glimpse[g].to &&
-                one.glimpse[g].sine == other.glimpse[g].sine);
+      ck_assert(one.interval[g].patch == other.interval[g].patch &&
+                one.interval[g].from == other.interval[g].from &&
+                one.interval[g].to == other.interval[g].to &&
+                one.interval[g].sine == other.interval[g].sine);
     ck_assert(one.front == other.front && one.back == other.back && one.sky == other.sky);
-    hr2di_viewer_destroy(fresh);
+    hr2di_point_viewer_destroy(fresh);
   }
-  hr2di_viewer_destroy(old);
+  hr2di_point_viewer_destroy(old);
   hr2d_scene_destroy(scene);
   plan_free(&p);
 }

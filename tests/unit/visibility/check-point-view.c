@@ -24,20 +24,20 @@
 
 typedef long double real;
 
-static hr2di_viewer *viewer_of(const hr2d_scene *scene) {
+static hr2di_point_viewer *viewer_of(const hr2d_scene *scene) {
   const hr2d_allocator alloc = hr2di_alloc_default();
-  hr2di_viewer *viewer = NULL;
-  ck_assert_int_eq(hr2di_viewer_create(scene, &alloc, NULL, &viewer), HR2D_OK);
+  hr2di_point_viewer *viewer = NULL;
+  ck_assert_int_eq(hr2di_point_viewer_create(scene, &alloc, NULL, &viewer), HR2D_OK);
   return viewer;
 }
 
 /* Computes a view and checks the invariants of every view. */
-static hr2di_view_from look(hr2di_viewer *viewer, size_t patch, double t) {
+static hr2di_view_from look(hr2di_point_viewer *viewer, size_t patch, double t) {
   hr2di_view_from seen;
   double front = 0;
   ck_assert_int_eq(hr2di_view_at(viewer, patch, t, &seen), HR2D_OK);
   for (size_t k = 0; k < seen.count; k++) {
-    const hr2di_glimpse *g = &seen.glimpse[k];
+    const hr2di_visible_interval *g = &seen.interval[k];
     ck_assert(g->patch != patch);
     ck_assert(0 <= g->from && g->from < g->to && g->to <= 1);
     ck_assert(0 < g->sine && g->sine <= 1);
@@ -173,7 +173,7 @@ static real sine_between(const brute *b, size_t patch, real from, real to) {
 
 /* The part is as wide as its sine, up to rounding of the fractions, and a ray sees its
    inside.  The ray does not go to the middle, where another patch may end on it. */
-static void check_part(const brute *b, const hr2di_glimpse *g) {
+static void check_part(const brute *b, const hr2di_visible_interval *g) {
   const real slack = 4 * DBL_EPSILON, from = g->from, to = g->to;
   int front = 0;
   const real more = sine_between(b, g->patch, fmaxl(from - slack, 0), fminl(to + slack, 1));
@@ -193,7 +193,7 @@ static double compare(const brute *b, const hr2di_view_from *seen) {
   real worst = fmaxl(fabsl(b->back - seen->back), fabsl(b->sky - seen->sky));
   real *sine = calloc(b->patches, sizeof *sine);
   for (size_t k = 0; k < seen->count; k++)
-    sine[seen->glimpse[k].patch] += seen->glimpse[k].sine;
+    sine[seen->interval[k].patch] += seen->interval[k].sine;
   for (size_t k = 0; k < b->patches; k++) worst = fmaxl(worst, fabsl(sine[k] - b->sine[k]));
   free(sine);
   return (double)worst;
@@ -233,11 +233,11 @@ typedef struct rooms {
 } rooms;
 
 /* As given, or turned, so that no coordinate is a round number. */
-static hr2d_scene *draw_scene(rooms *s, const plan_class *class, int most, int kind, int turned,
+static hr2d_scene *draw_scene(rooms *s, const plan_class *class, int max, int kind, int turned,
                               unsigned forced) {
   const double angle = random_between(&s->r, 0, 6.3);
   s->plan = (plan){.walls = 0};
-  class->draw(&s->r, (int)random_power(&s->r, 0, log10(most)), &s->plan);
+  class->draw(&s->r, (int)random_power(&s->r, 0, log10(max)), &s->plan);
   ruin(&s->r, &s->plan, kind);
   if (turned) plan_transform(&s->plan, (similarity){.u = cos(angle), .v = sin(angle)});
   return test_painted_scene(&s->plan, &(test_paint){.emission = 1, .forced = forced});
@@ -249,19 +249,19 @@ START_TEST(rays_see_the_same) {
   double worst = 0;
   for (int k = 0; k < test_count(24); k++) {
     hr2d_scene *scene = draw_scene(&s, class, 40, k % 3, k % 2, 0);
-    hr2di_viewer *viewer = viewer_of(scene);
+    hr2di_point_viewer *viewer = viewer_of(scene);
     for (int m = 0; m < 40; m++) {
       const size_t patch = (size_t)(random_bits(&s.r) % hr2d_scene_patches(scene));
       const double t = draw_fraction(&s.r);
       const hr2di_view_from seen = look(viewer, patch, t);
       brute b = brute_look(scene, patch, t, SIZE_MAX);
-      for (size_t g = 0; g < seen.count && !touched(&b); g++) check_part(&b, &seen.glimpse[g]);
+      for (size_t g = 0; g < seen.count && !touched(&b); g++) check_part(&b, &seen.interval[g]);
       if (!touched(&b)) worst = fmax(worst, compare(&b, &seen));
       ck_assert_msg(worst < 1e-13, "%s, scene %d: patch %zu at %a is off by %g", class->name, k,
                     patch, t, worst);
       brute_free(&b);
     }
-    hr2di_viewer_destroy(viewer);
+    hr2di_point_viewer_destroy(viewer);
     hr2d_scene_destroy(scene);
     plan_free(&s.plan);
   }
@@ -272,16 +272,16 @@ END_TEST
 START_TEST(a_missing_patch_is_noticed) {
   rooms s = {.r = randoms_stream(test_seed(), 700 + _i)};
   hr2d_scene *scene = draw_scene(&s, &plan_classes[_i], 20, 0, 1, 0);
-  hr2di_viewer *viewer = viewer_of(scene);
+  hr2di_point_viewer *viewer = viewer_of(scene);
   const hr2di_view_from seen = look(viewer, 0, .37);
   for (size_t k = 0; k < seen.count; k++) {
-    const hr2di_glimpse *g = &seen.glimpse[k];
+    const hr2di_visible_interval *g = &seen.interval[k];
     brute b = brute_look(scene, 0, .37, g->patch);
     ck_assert_double_ge(compare(&b, &seen), g->sine * (1 - 1e-6));
     brute_free(&b);
   }
   ck_assert_uint_ge(seen.count, 2);
-  hr2di_viewer_destroy(viewer);
+  hr2di_point_viewer_destroy(viewer);
   hr2d_scene_destroy(scene);
   plan_free(&s.plan);
 }
@@ -305,13 +305,13 @@ START_TEST(rooms_are_closed) {
   double worst = 0;
   for (int k = 0; k < test_count(30); k++) {
     hr2d_scene *scene = draw_scene(&s, class, 60, 0, k % 2, 0);
-    hr2di_viewer *viewer = viewer_of(scene);
+    hr2di_point_viewer *viewer = viewer_of(scene);
     for (size_t patch = 0; patch < hr2d_scene_patches(scene) && area_of(&s.plan) > 0; patch++)
       for (size_t m = 0; m < 8; m++) {
         const hr2di_view_from seen = look(viewer, patch, fraction[m]);
         worst = fmax(worst, 1 - seen.front);
       }
-    hr2di_viewer_destroy(viewer);
+    hr2di_point_viewer_destroy(viewer);
     hr2d_scene_destroy(scene);
     plan_free(&s.plan);
   }
@@ -322,7 +322,7 @@ END_TEST
 
 /* Σ w_j ½|sinθ| over the patches that a point of a patch sees. */
 typedef struct integrand {
-  hr2di_viewer *viewer;
+  hr2di_point_viewer *viewer;
   size_t patch;
   const double *weight;
 } integrand;
@@ -333,7 +333,7 @@ static double weighed(double t, void *params) {
   double sum = 0;
   ck_assert_int_eq(hr2di_view_at(f->viewer, f->patch, t, &seen), HR2D_OK);
   for (size_t k = 0; k < seen.count; k++)
-    sum += f->weight[seen.glimpse[k].patch] * seen.glimpse[k].sine;
+    sum += f->weight[seen.interval[k].patch] * seen.interval[k].sine;
   return sum;
 }
 
@@ -397,7 +397,7 @@ START_TEST(views_integrate_to_exchange_areas) {
     size_t events;
     double *event = find_events(scene, patch, &events);
     worst = fmax(worst, (double)fabsl(integrate(&f, event, events) - expected));
-    hr2di_viewer_destroy(f.viewer);
+    hr2di_point_viewer_destroy(f.viewer);
     free(event);
     free(weight);
     free(area);
@@ -418,22 +418,22 @@ START_TEST(forced_occlusion_changes_no_bit) {
         draw_scene(&forced, &plan_classes[0], 10, k % 2, 1, 1u << HR2D_EFFECT_OCCLUSION);
     ck_assert(!hr2d_scene_effect(one, HR2D_EFFECT_OCCLUSION, NULL));
     ck_assert(hr2d_scene_effect(other, HR2D_EFFECT_OCCLUSION, NULL));
-    hr2di_viewer *first = viewer_of(one), *second = viewer_of(other);
+    hr2di_point_viewer *first = viewer_of(one), *second = viewer_of(other);
     for (size_t patch = 0; patch < hr2d_scene_patches(one); patch++)
       for (int m = 0; m < 20; m++) {
         const double t = m < 2 ? m : draw_fraction(&plain.r);
         const hr2di_view_from p = look(first, patch, t), q = look(second, patch, t);
         ck_assert_uint_eq(p.count, q.count);
         for (size_t g = 0; g < p.count; g++) {
-          ck_assert_uint_eq(p.glimpse[g].patch, q.glimpse[g].patch);
-          ck_assert(p.glimpse[g].from == q.glimpse[g].from);
-          ck_assert(p.glimpse[g].to == q.glimpse[g].to);
-          ck_assert(p.glimpse[g].sine == q.glimpse[g].sine);
+          ck_assert_uint_eq(p.interval[g].patch, q.interval[g].patch);
+          ck_assert(p.interval[g].from == q.interval[g].from);
+          ck_assert(p.interval[g].to == q.interval[g].to);
+          ck_assert(p.interval[g].sine == q.interval[g].sine);
         }
         ck_assert(p.front == q.front && p.back == q.back && p.sky == q.sky);
       }
-    hr2di_viewer_destroy(first);
-    hr2di_viewer_destroy(second);
+    hr2di_point_viewer_destroy(first);
+    hr2di_point_viewer_destroy(second);
     hr2d_scene_destroy(one);
     hr2d_scene_destroy(other);
     plan_free(&plain.plan);
@@ -517,7 +517,7 @@ START_TEST(sines_keep_their_digits) {
     const pair p = draw_pair(class, &r);
     hr2d_scene *scene = scene_of_pair(p);
     if (!scene) continue;
-    hr2di_viewer *viewer = viewer_of(scene);
+    hr2di_point_viewer *viewer = viewer_of(scene);
     for (int m = 0; m < 4; m++) {
       const double t = m % 2 ? draw_fraction(&r)
                        : m   ? random_power(&r, -30, 0)
@@ -536,7 +536,7 @@ START_TEST(sines_keep_their_digits) {
       worst = fmax(worst, mpfr_relative_error(seen.front, sine) - rounding);
       compared++;
     }
-    hr2di_viewer_destroy(viewer);
+    hr2di_point_viewer_destroy(viewer);
     hr2d_scene_destroy(scene);
   }
   mpfr_clear(sine);
@@ -557,16 +557,16 @@ static hr2d_scene *scene_of(const hr2d_patch *patch, size_t count) {
 static void expect(const hr2d_patch *patch, size_t count, double t, const double *sine,
                    double back, double sky) {
   hr2d_scene *scene = scene_of(patch, count);
-  hr2di_viewer *viewer = viewer_of(scene);
+  hr2di_point_viewer *viewer = viewer_of(scene);
   const hr2di_view_from seen = look(viewer, 0, t);
   const size_t n = hr2d_scene_patches(scene);
   double *sum = calloc(n, sizeof *sum);
-  for (size_t k = 0; k < seen.count; k++) sum[seen.glimpse[k].patch] += seen.glimpse[k].sine;
+  for (size_t k = 0; k < seen.count; k++) sum[seen.interval[k].patch] += seen.interval[k].sine;
   for (size_t k = 0; k < n; k++) ck_assert_double_eq_tol(sum[k], sine[k], 1e-15);
   ck_assert_double_eq_tol(seen.back, back, 1e-15);
   ck_assert_double_eq_tol(seen.sky, sky, 1e-15);
   free(sum);
-  hr2di_viewer_destroy(viewer);
+  hr2di_point_viewer_destroy(viewer);
   hr2d_scene_destroy(scene);
 }
 
@@ -652,15 +652,15 @@ START_TEST(parts_are_where_rays_end) {
                               {.a = {-8, 3}, .b = {-8, -1}}};
   const double expected[][3] = {{1, 0, 1}, {3, 0, .4375}, {3, .625, 1}, {4, 0, .75}};
   hr2d_scene *scene = scene_of(patch, 4);
-  hr2di_viewer *viewer = viewer_of(scene);
+  hr2di_point_viewer *viewer = viewer_of(scene);
   const hr2di_view_from seen = look(viewer, 0, .5);
   ck_assert_uint_eq(seen.count, 4);
   for (size_t k = 0; k < 4; k++) {
-    ck_assert_uint_eq(seen.glimpse[k].patch, (unsigned)expected[k][0]);
-    ck_assert_double_eq_tol(seen.glimpse[k].from, expected[k][1], 1e-15);
-    ck_assert_double_eq_tol(seen.glimpse[k].to, expected[k][2], 1e-15);
+    ck_assert_uint_eq(seen.interval[k].patch, (unsigned)expected[k][0]);
+    ck_assert_double_eq_tol(seen.interval[k].from, expected[k][1], 1e-15);
+    ck_assert_double_eq_tol(seen.interval[k].to, expected[k][2], 1e-15);
   }
-  hr2di_viewer_destroy(viewer);
+  hr2di_point_viewer_destroy(viewer);
   hr2d_scene_destroy(scene);
 }
 END_TEST
@@ -672,7 +672,7 @@ static const char *const open_scenes[] = {"street-canyon.geojson", "solar-panels
 START_TEST(examples_are_seen_by_rays) {
   randoms r = randoms_stream(test_seed(), 1200);
   hr2d_scene *scene = test_shipped_scene(open_scenes[_i]);
-  hr2di_viewer *viewer = viewer_of(scene);
+  hr2di_point_viewer *viewer = viewer_of(scene);
   double worst = 0, sky = 0, back = 0;
   for (int k = 0; k < test_count(200); k++) {
     const size_t patch = (size_t)(random_bits(&r) % hr2d_scene_patches(scene));
@@ -686,7 +686,7 @@ START_TEST(examples_are_seen_by_rays) {
   }
   printf("%-26s to rays %.2e, sky to %.3g, backs to %.3g\n", open_scenes[_i], worst, sky, back);
   ck_assert_double_lt(worst, 1e-13);
-  hr2di_viewer_destroy(viewer);
+  hr2di_point_viewer_destroy(viewer);
   hr2d_scene_destroy(scene);
 }
 END_TEST
@@ -694,15 +694,15 @@ END_TEST
 /* The views of all patches, with a viewer of their own. */
 static hr2d_status look_around(const hr2d_scene *scene, const hr2d_allocator *alloc,
                                double *front) {
-  hr2di_viewer *viewer = NULL;
+  hr2di_point_viewer *viewer = NULL;
   hr2di_view_from seen;
-  hr2d_status status = hr2di_viewer_create(scene, alloc, NULL, &viewer);
+  hr2d_status status = hr2di_point_viewer_create(scene, alloc, NULL, &viewer);
   *front = 0;
   for (size_t patch = 0; patch < hr2d_scene_patches(scene) && !status; patch++) {
     status = hr2di_view_at(viewer, patch, .3, &seen);
     if (!status) *front += seen.front;
   }
-  hr2di_viewer_destroy(viewer);
+  hr2di_point_viewer_destroy(viewer);
   return status;
 }
 
@@ -723,7 +723,7 @@ START_TEST(allocations_fail_one_by_one) {
   }
   ck_assert(front == expected);
   ck_assert_int_gt(k, 3);
-  hr2di_viewer_destroy(NULL);
+  hr2di_point_viewer_destroy(NULL);
   hr2d_scene_destroy(scene);
   plan_free(&s.plan);
 }
