@@ -28,10 +28,10 @@
  *
  * The *estimate* is an a posteriori error estimate: it solves this equation. Beside corners,
  * where K⁺ shows a known part of the error, r is divided by that part. Errors of averages are
- * sums with signs, which may cancel by chance: a tenth of the size that they have with random
- * signs is added, in squares. The *bound* has four parts:
- * - a multiple of that size and of the error with its signs: 2.5 times, from 7 to 28 times
- *   where views change, 3 times at points at least;
+ * sums of terms with signs, which may cancel by chance. Let s be the size that such a sum has
+ * with random signs; a sum e becomes the estimate √(e² + (s/10)²). The *bound* has four parts:
+ * - a multiple of √(e² + s²), and at points of the estimate: 2.5 times, from 7 to 28
+ *   times where views change, 3 times at points at least;
  * - a tenth or more of the largest error of an average without signs;
  * - where views change, the target: elements are made for it, and the error that kinks inside
  *   them cause beyond K⁺ is assumed to be below that. Likewise the estimate is a tenth of the
@@ -183,10 +183,11 @@ typedef struct hr2d_account {
  * @retval HR2D_EACCURACY      the target was not reached, because a budget ran out or double
  *                             precision does not suffice; see hr2d_account::reason. The best
  *                             solution so far is returned with its errors. The errors are
- *                             infinite if there was no time to measure them. If there was none
- * for the factors of whole patches either, B is one constant per patch over the factors that
- * were ready. The solution is NULL if `max_elements` or `max_bytes` is too small for the
- * patches
+ *                             infinite if there was no time to measure them. If the time
+ *                             did not even suffice for all factors of whole patches, B is
+ *                             one constant per patch, from the factors that were ready.
+ *                             The solution is NULL if `max_elements` or `max_bytes` is too
+ *                             small for the patches
  * @retval HR2D_ENOMEM         an allocation failed
  * @retval HR2D_EINVAL         a member of `target` is not valid
  * @retval HR2D_ESTATE         the scene is not committed

@@ -25,10 +25,10 @@
  * n·Φ = H(n) − H(−n). If E is in W/m², σT⁴ = M gives the mean radiant temperature T.
  *
  * **Exactness.** Visibility is exact, and so are the integrals over the B_h of a solution, as
- * hr2d_solution_at() has it: M has an error of some 1e-15 of the largest B, and at distance d
- * from an end of a leaf, in units of hr2d_scene_unit(), of 1e-16/d of the jump of B_h there. Φ
- * has π times as much. The error of B_h comes on top. If |B_h − B| ≤ e_j on patch j, and x
- * sees j in the part s_j of all directions, then
+ * hr2d_solution_at() has it. The error of M is some 1e-15 of the largest B. At distance d from
+ * an end of a leaf, in units of hr2d_scene_unit(), 1e-16/d times the jump of B_h there is
+ * added. Φ has π times as much. The error of B_h comes on top. If |B_h − B| ≤ e_j on patch j,
+ * and x sees j in the part s_j of all directions, then
  *
  *     |δM| ≤ Σ s_j e_j   and   |δΦ| ≤ π Σ s_j e_j,
  *

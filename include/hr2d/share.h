@@ -39,14 +39,14 @@
  *
  * Each pair of patches belongs to the row of its earlier patch. With
  * hr2d_refine_options::share each share gets runs of whole rows. With a target rows are
- * counted first, and long ones are cut by the other patches of their pairs; each share with a
- * part of such a row traces the beams of its patch. Where few patches have many links, all
- * shares with a part of them refine the same pairs, and each keeps its part of the links. All
- * shares get nearly the same number of links. hr2d_linkset_own_tests() returns the visibility
- * tests of this one. Every share has the links between clusters of patches (clusters.h), and
- * all data of the scene. A further refinement of a set may make other visibility tests than
- * one process. States hold the links of one share only: hr2dp_save_solution() of libhr2d-petsc
- * keeps B alone, and makes the links again.
+ * counted first, and a long row is cut into ranges of the other patch of its pairs. Each share
+ * that has a part of such a row traces the beams of its patch. Where few patches have many
+ * links, several shares refine the same pairs, and each keeps its part of the links. All shares
+ * get nearly the same number of links. hr2d_linkset_own_tests() returns the visibility tests of
+ * this one. Every share has the links between clusters of patches (clusters.h), and all data of
+ * the scene. A further refinement of a set may make other visibility tests than one process.
+ * States hold the links of one share only: hr2dp_save_solution() of libhr2d-petsc keeps B
+ * alone, and makes the links again.
  *
  * libhr2d-petsc has a `combine` for MPI. This one is for processes of one machine:
  *
@@ -104,9 +104,9 @@ typedef struct hr2d_share {
 } hr2d_share;
 
 /**
- * Chooses among pairs before any test of facing or visibility, and before the oracle. So a
- * part of a refinement costs that part of its time: where processes share one, or where only
- * some exchanges are of interest.
+ * Selects pairs before any test of facing or visibility, and before the oracle. So the time of
+ * a refinement is proportional to the pairs that are kept. This is for processes that share a
+ * refinement, or if only some exchanges are of interest.
  * @param ctx      hr2d_refine_options::claim_ctx
  * @param batch    pairs of patches, or pairs that come from a subdivision
  * @param claimed  one per pair, all 1: set to 0, the pair is dropped, with all pairs below it

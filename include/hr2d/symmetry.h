@@ -56,8 +56,8 @@
  * as short as d, or as near to its image, may be off by that part of d as well.
  *
  * Exchange areas of patches (visibility.h) are sums over all images: a patch may see images of
- * its own. They are made by one thread, in memory that grows with the pairs that see each
- * other, which hr2d_exchange_rows_visit() keeps until its end as well. The contribution of
+ * its own. One thread makes them, in memory that grows with the number of pairs that see each
+ * other; hr2d_exchange_rows_visit(), too, holds this memory until it ends. The contribution of
  * images that are cut off is extrapolated, but never below 0.
  * hr2d_matrix_options::cut_off_estimate and hr2d_matrix_options::cut_off_bound receive its
  * error, derived in the same way, and at most the sum of the extrapolated contribution and of

@@ -35,8 +35,9 @@
  * hr2d_black_body_part(). So does a patch of given q, whose T divides its emission among the
  * bands: B_b = ε_b f_b(T)σT⁴ + (1 − ε_b)H_b. In several bands such a patch has one T, and q is
  * the mean over its length: Σ_b ε_b (f_b(T)σT⁴ − H̄_b) = q with the averages H̄_b. (In one
- * band every point of it has this q, and a T of its own. Short pieces of a wall bring both
- * together.) These T are unique. hr2d_solve() finds those of its links, by Newton's method
+ * band every point of the patch has this q and its own T. The two models agree in the limit
+ * if a wall is cut into short patches.) These T are unique. hr2d_solve() finds those of its
+ * links, by Newton's method
  * over linear solves, 10 to 50 times the cost of one. So does hr2d_solve_to(), and its account
  * has their part of the error. hr2d_target::seconds is a budget of the solves; the
  * temperatures take some iterations more. Where T would be below 0 K, HR2D_ENO_SOLUTION is

@@ -29,16 +29,16 @@
 #include "solution/solution-impl.h"
 #include "solve/heat-scene.h"
 
-/* The target of the coarse solve; the change of E beyond which the account is made anew; the
-   part of an aim that is left to what the growth of errors does not tell. */
-#define COARSE 1e-5
-#define MOVED  0.1
-#define SURE   0.9
+/* The least target of the coarse solve; the relative change of E beyond which the solve and its
+   account are made anew; the part of the target that is used, the rest is a reserve. */
+#define COARSE     1e-5
+#define MAX_CHANGE 0.1
+#define USED_PART  0.9
 
 enum { FINE_SOLVES = 4 };
 
-/* How much an error of 1 of H, relative, makes of further errors: in averages of B and H, and
-   at points. */
+/* The further relative errors, through the temperatures, per relative error of H: in averages
+   of B, in averages of H, and at points. */
 typedef struct growth {
   double average, irradiance, sup;
 } growth;
@@ -54,10 +54,10 @@ typedef struct heat_search {
   hr2d_account account; /* of it, with the work of all */
   growth growth;
   double moved; /* the largest relative change of E since the account */
-  double left;  /* the largest part of n that the balance is off by */
+  double left;  /* the largest |g|/n: the residual of the heat balance */
 } heat_search;
 
-/* The errors of patches that are asked for need those of patches of given flux. */
+/* Makes patches of given flux important, too: the errors of all others depend on theirs. */
 static hr2d_status set_important(heat_search *s) {
   const size_t patches = hr2di_scene_cell(s->scene);
   size_t count = 0;
@@ -98,7 +98,7 @@ static void add_work(hr2d_account *sum, const hr2d_account *more) {
   sum->error_seconds += more->error_seconds;
 }
 
-/* A solve with the temperatures as they are, in the place of the last. */
+/* Solves with the present temperatures; the solution replaces the last one. */
 static hr2d_status solve(heat_search *s, double part_of_time) {
   const hr2d_account before = s->account;
   hr2d_solution_destroy(s->solution);
@@ -305,8 +305,8 @@ static hr2d_status approach(heat_search *s) {
   if (is_usable(s, status)) status = settle(s);
   s->how.no_error = s->given.no_error;
   s->how.norm = s->given.norm;
-  s->how.error =
-      s->given.error > 0 ? SURE * s->given.error / (1 + growth_of(s)) : HR2D_SMALLEST_ERROR;
+  s->how.error = s->given.error > 0 ? USED_PART * s->given.error / (1 + growth_of(s))
+                                    : HR2D_SMALLEST_ERROR;
   return status;
 }
 
@@ -315,7 +315,7 @@ static hr2d_status reach(heat_search *s) {
   for (int k = 0; k < FINE_SOLVES && !frozen; k++) {
     status = solve(s, 0.6);
     frozen = is_usable(s, status) ? settle(s) : status;
-    if (!frozen && s->moved <= MOVED) break;
+    if (!frozen && s->moved <= MAX_CHANGE) break;
   }
   if (!frozen) frozen = renew(s);
   if (frozen) return frozen;

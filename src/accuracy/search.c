@@ -16,8 +16,8 @@
 /* Of several shares only the first one looks at its clock. */
 double hr2di_search_left(const hr2di_search *s) {
   const hr2d_share *share = s->target.share;
-  const int beam_cache = s->deadline > 0 && (!share || share->number == 0);
-  return beam_cache ? s->deadline - hr2di_clock_now() : HUGE_VAL;
+  const int reads_clock = s->deadline > 0 && (!share || share->number == 0);
+  return reads_clock ? s->deadline - hr2di_clock_now() : HUGE_VAL;
 }
 
 /* Ends a call when the time is up. */
@@ -30,14 +30,15 @@ static hr2d_status watch(void *ctx, const hr2d_progress *progress) {
   return s->progress_status;
 }
 
-/* Shares have memory for their own rows alone. */
-static hr2d_status make_looks(hr2di_search *s) {
+/* Makes a beam cache unless bytes are limited, or shares have memory for their own rows alone.
+ */
+static hr2d_status make_beam_cache(hr2di_search *s) {
   if (!s->scene->effect[HR2D_EFFECT_OCCLUSION].on || s->given.max_bytes || s->given.share)
     return HR2D_OK;
   return hr2di_beam_cache_init(&s->beam_cache, s->scene, HR2DI_CHOICE_SEEN_BYTES);
 }
 
-hr2di_beam_cache *hr2di_search_looks(hr2di_search *s) {
+hr2di_beam_cache *hr2di_search_beam_cache(hr2di_search *s) {
   return s->beam_cache.of ? &s->beam_cache : NULL;
 }
 
@@ -46,7 +47,7 @@ hr2d_status hr2di_search_init(hr2di_search *s, const hr2d_scene *scene,
   *s =
       (hr2di_search){.scene = scene, .start = hr2di_clock_now(), .error = {HUGE_VAL, HUGE_VAL}};
   hr2d_status status = hr2di_target_init(&s->given, scene, target, HR2D_DEFAULT_ERROR);
-  if (!status) status = make_looks(s);
+  if (!status) status = make_beam_cache(s);
   s->target = s->given;
   s->target.progress = watch;
   s->target.progress_ctx = s;
@@ -155,7 +156,7 @@ hr2d_status hr2di_search_fallback(hr2di_search *s) {
   return hr2di_search_agree(s, s->out_of_time ? HR2D_STOPPED : status);
 }
 
-/* What the best solve so far holds is not there for another. */
+/* The target with `max_bytes` less the bytes that the best solve so far holds. */
 static hr2d_target rest_of_budget(const hr2di_search *s) {
   hr2d_target target = s->target;
   const hr2di_graded *best = &s->best;
@@ -180,8 +181,8 @@ hr2d_status hr2di_search_bound(hr2di_search *s) {
   return status;
 }
 
-/* Whether an attempt of some error takes the place of the best one.  With a deadline there may
-   be no time for another. */
+/* Whether an attempt with this error replaces the best one.  A divided mesh may do so with a
+   somewhat larger error, but not with a deadline: there may be no time for another attempt. */
 static int is_better(const hr2di_search *s, double error, int divided) {
   const double before = hr2di_search_error(s);
   const double max = divided && !(s->deadline > 0) ? HR2DI_CHOICE_VARIES * before : before;

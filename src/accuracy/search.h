@@ -34,7 +34,7 @@ hr2d_status hr2di_search_init(hr2di_search *s, const hr2d_scene *scene,
 void hr2di_search_clear(hr2di_search *s);
 
 /* Where looks of patches are kept; NULL if they are not. */
-hr2di_beam_cache *hr2di_search_looks(hr2di_search *s);
+hr2di_beam_cache *hr2di_search_beam_cache(hr2di_search *s);
 
 /* Seconds that are left; HUGE_VAL without a deadline. */
 double hr2di_search_left(const hr2di_search *s);

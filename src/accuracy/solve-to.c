@@ -27,7 +27,7 @@ static hr2di_resolution first_resolution(hr2di_search *s, double error) {
   hr2di_resolution guess = hr2di_strategy_for(s->scene, &s->survey, error, &s->given,
                                               s->lights.radiosity ? &s->lights : NULL);
   hr2di_resolution finer = s->fineness;
-  guess.beam_cache = hr2di_search_looks(s);
+  guess.beam_cache = hr2di_search_beam_cache(s);
   guess.skip_bound = !(s->given.seconds > 0); /* there is time for a bound at the end */
   /* Under a background of their own temperature scenes are isothermal to all digits. */
   if (!guess.lights && !s->given.no_error && !s->scene->effect[HR2D_EFFECT_BACKGROUND].on) {
@@ -158,11 +158,11 @@ static hr2d_status survey(hr2di_search *s) {
   hr2di_watch watch;
   hr2d_status status = HR2D_OK;
   if (hr2di_strategy_wants_lights(s->scene, &s->given))
-    status = hr2di_importance(s->scene, &s->target, hr2di_search_looks(s), &s->lights,
+    status = hr2di_importance(s->scene, &s->target, hr2di_search_beam_cache(s), &s->lights,
                               &s->survey, &s->message);
   if (status || s->survey.ellipse > 0) return status;
   hr2di_scene_watch(s->scene, &watch, s->target.progress, s->target.progress_ctx, "refine");
-  return hr2di_strategy_survey(s->scene, hr2di_search_looks(s), s->given.threads, &watch,
+  return hr2di_strategy_survey(s->scene, hr2di_search_beam_cache(s), s->given.threads, &watch,
                                &s->survey);
 }
 

@@ -6,7 +6,7 @@
 #include "estimate/graded-solve.h"
 
 /* Surveys the corners and ends of a scene, with threads as in options, and keeps what patches
-   see in `looks`, unless that is NULL.  Returns HR2D_OK, HR2D_ENOMEM or the status of the
+   see in `beam_cache`, unless that is NULL.  Returns HR2D_OK, HR2D_ENOMEM or the status of the
    watch. */
 hr2d_status hr2di_strategy_survey(const hr2d_scene *scene, hr2di_beam_cache *beam_cache,
                                   unsigned threads, hr2di_watch *watch, hr2di_survey *survey);

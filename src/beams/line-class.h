@@ -49,9 +49,10 @@ static inline int hr2di_line_class_clear(const hr2di_line_class *s) {
                                       s->ends & HR2DI_LINE_CLASS_C);
 }
 
-/* Whether it has lines when one end of i or j is moved to x, a point of that segment.  `child`
-   is then what is left of it: with points in `room`, which has room for one point more than the
-   line class has, or in the place of those of the line class where nothing changes.
+/* Moves one end of segment i or j to x, a point of that segment, and returns whether any line
+   is left.  If so, `child` receives the line class of these lines.  Its points are in `room`,
+   which must hold one point more than the line class has; or, if nothing changes, they are
+   those of the line class itself.
 
    The sign for a point x that was rounded costs the roundings of x, if no end of the line class
    lies as near to the inside of the segment as that. */

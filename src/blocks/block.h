@@ -51,8 +51,8 @@ typedef struct hr2di_integrator {
   uint64_t kernels; /* values of G, or of its integral over the lines of one direction */
 } hr2di_integrator;
 
-/* What patches see is kept in `looks`, unless that is NULL.  Returns HR2D_OK or HR2D_ENOMEM.
-   Call hr2di_integrator_clear() in either case. */
+/* What patches see is kept in `beam_cache`, unless that is NULL.  Returns HR2D_OK or
+   HR2D_ENOMEM. Call hr2di_integrator_clear() in either case. */
 hr2d_status hr2di_integrator_init(hr2di_integrator *work, const hr2d_hierarchy *hierarchy,
                                   const hr2d_allocator *alloc, size_t order,
                                   hr2di_beam_cache *beam_cache, hr2di_watch *watch);

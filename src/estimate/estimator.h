@@ -14,8 +14,8 @@
 
 typedef struct hr2di_estimator {
   hr2di_equation eq;
-  hr2di_equation part; /* of `eq`, with fewer coefficients: where light has been reflected */
-  int whole;           /* the part does not suffice */
+  hr2di_equation part; /* `eq` at a lower order, for light that has been reflected */
+  int whole;           /* `part` does not suffice: solve `eq` itself */
   const hr2d_solution *coarse;
   const hr2d_target *target;
   const double *unresolved_jump; /* see hr2di_graded */
@@ -42,8 +42,8 @@ typedef struct hr2di_estimator {
   double *average[2];  /* patches × bands: errors of averages, of B and of H */
   double *rounding[2]; /* likewise what roundings may be */
   double *max;         /* elements × bands: |field| at most */
-  double *own;         /* likewise: what of |B| roundings of H on the element itself are of */
-  double *off[2];     /* leaves × bands: what roundings may do to H, as B has it and as told */
+  double *own;        /* likewise: stands for the own |B| of the element in the rounding of H */
+  double *off[2];     /* leaves × bands: rounding error of H, as used in B and as reported */
   double *floor;      /* 2 × bands, of B and of H: no average counts as less */
   double *safe;       /* likewise: the worst error of an average without signs, */
   double *scatter;    /* and the size that it has with random ones */
@@ -89,12 +89,13 @@ void hr2di_estimator_lift(const hr2di_estimator *e, double *max);
 /* ρ of the patch of a leaf. */
 double hr2di_estimator_rho(const hr2di_estimator *e, size_t leaf, size_t band);
 
-/* H at a point of a patch is off by `error`, and B by ρ times that; of no importance where the
-   patch is not. */
+/* Notes in `point` that H at a point of a patch is off by `error`, and B by ρ times that.  Does
+   nothing if the patch is not important. */
 void hr2di_estimator_off(hr2di_estimator *e, double *const point[2], size_t patch, size_t band,
                          double error);
 
-/* The brightest sky in coefficient m of a field; only the first of each band is not 0. */
+/* Coefficient m of a leaf in the field that is everywhere as bright as the brightest sky: 0
+   unless m is the constant coefficient of a band. */
 double hr2di_estimator_sky(const hr2di_estimator *e, size_t m);
 
 /* Averages of a field over the patches. */
@@ -104,13 +105,14 @@ void hr2di_estimator_averages(hr2di_estimator *e, const double *field, double *a
    is an error of, or the importance of residuals for an average, whose sum counts. */
 typedef enum hr2di_estimator_aim { HR2DI_AIM_ERRORS, HR2DI_AIM_IMPORTANCE } hr2di_estimator_aim;
 
-/* Solves for the source of the equation; changes its y.  The part does it, unless e->whole is
-   set: then the other coefficients of the radiosity are those of the source, and of the
-   irradiance 0.  Returns HR2D_OK or the status of the solve. */
+/* Solves for the source of the equation; changes its y.  If e->whole is set, this solves e->eq.
+   Otherwise it solves e->part alone: the coefficients that the part lacks are those of the
+   source in the radiosity, and 0 in the irradiance.  Returns HR2D_OK or the status of the
+   solve. */
 hr2d_status hr2di_estimator_solve(hr2di_estimator *e, double tolerance);
 
-/* The same, right to `part` also where it is darkest: the norm of a solve has the largest
-   values, and dark patches have errors, too. */
+/* The same, to the relative accuracy `part` on dark patches as well: the norm of a plain solve
+   is dominated by the largest values. */
 hr2d_status hr2di_estimator_solve_part(hr2di_estimator *e, double part,
                                        hr2di_estimator_aim aim);
 

@@ -101,7 +101,7 @@ static hr2d_status find_roots(hr2d_linkset *links, const hr2di_graded *coarse,
                                 target->threads, &watch);
 }
 
-/* Links of the elements of `coarse` that are as they were are taken over, unless that is NULL.
+/* Makes the links.  Takes over those of unchanged elements from `coarse`, unless it is NULL.
  */
 static hr2d_status link_elements(hr2di_graded *a, const hr2di_graded *coarse,
                                  const hr2di_resolution *fineness, const hr2d_target *target) {
@@ -169,7 +169,7 @@ static hr2d_status check_bytes(const hr2di_graded *a, const hr2di_resolution *fi
                             a->hierarchy->scene->bands);
 }
 
-/* Where nothing is divided nobody has looked whether the patches themselves are too many. */
+/* The patches alone may be too many; grading checks the limit only when it divides. */
 static hr2d_status check_elements(const hr2di_graded *a, const hr2d_target *target) {
   const uint64_t max = target->max_elements;
   return max && a->hierarchy->elements > max ? HR2D_EMAX_ELEMENTS : HR2D_OK;
@@ -205,8 +205,8 @@ static hr2d_status find_uneven(const hr2di_graded *a, hr2d_share *share, int *un
   return status;
 }
 
-/* Links of the same order keep their blocks, as a share keeps its rows; unless what was divided
-   is mostly that of a few shares: then rows are dealt out anew. */
+/* At the same order a share keeps its rows, and links keep their blocks.  But if a few shares
+   then have too many of the links, rows are dealt out anew and all links are made again. */
 static hr2d_status link_divided(hr2di_graded *a, const hr2di_graded *coarse,
                                 const hr2di_resolution *fineness, const hr2d_target *target) {
   const hr2d_allocator *alloc = &a->hierarchy->alloc;

@@ -11,7 +11,7 @@ int hr2di_is_important(const hr2d_target *target, size_t patch);
 /* Sets `lights` from a coarse solve: B of patches and ρψ, with ψ = Σ ψ_i/a_i over the important
    averages a_i of B and of H, which count as no less than the floor of the target.  `survey`
    receives what the elements of that solve say of the scene; it is unchanged where they cannot
-   be made.  Keeps what patches see in `looks`, unless that is NULL.  Returns HR2D_OK, or a
+   be made.  Keeps what patches see in `beam_cache`, unless that is NULL.  Returns HR2D_OK, or a
    status with a reason in `message`.  Lights may be missing with HR2D_OK, if a budget does not
    suffice for them; they are to be cleared in any case. */
 hr2d_status hr2di_importance(const hr2d_scene *scene, const hr2d_target *target,

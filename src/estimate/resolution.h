@@ -15,24 +15,24 @@ typedef struct hr2di_resolution {
   double target;           /* relative error that corners are graded for */
   double cluster_accuracy; /* relative accuracy of links between clusters of patches */
   double tolerance;        /* of the solve; 0: the least */
-  double relative;         /* what the solve may leave everywhere, as a part of the light there;
-                              0: the tolerance alone counts */
-  double floor;            /* no light counts as less, relative to the brightest */
+  double relative; /* local residual that the solve may leave, relative to the light there;
+                      0: the tolerance alone counts */
+  double floor;    /* no light counts as less, relative to the brightest */
   hr2d_norm norm;
   unsigned corner_levels; /* levels at corners beyond what the target asks for */
   int no_corner_grading;  /* elements are not graded for the target, but for these levels alone
                            */
-  double distance;        /* the ellipse at which ends in front of elements may be */
+  double distance;        /* the least ellipse m of an element at which ends may be in front */
   int has_events;         /* the scene has visibility events */
   int many_patches;       /* it has very many */
   unsigned generations;   /* elements end at events of so many generations */
-  int a_posteriori;       /* errors that are too large name the elements that make them, where
-                       no events have been chosen */
-  int skip_bound;         /* errors that do so need no bound, and none at points */
-  double kinks;           /* the shares of error that events inside elements may make; 0:
-                             elements end at all events */
-  int single;             /* floats suffice for blocks */
-  unsigned raises;        /* how often it was made finer */
+  int a_posteriori; /* if the error is too large, find the elements that cause it, unless events
+                       were selected */
+  int skip_bound;   /* then measure neither a bound nor the errors at points */
+  double kinks;     /* the error that events left inside elements may cause; 0:
+                       elements end at all events */
+  int single;       /* floats suffice for blocks */
+  unsigned raises;  /* how often it was made finer */
   const hr2di_primal_dual *lights; /* of patches, to tell which events matter */
   hr2di_beam_cache *beam_cache; /* what patches see, for all attempts; NULL: nothing is kept */
 } hr2di_resolution;

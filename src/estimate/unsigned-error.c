@@ -24,7 +24,7 @@
 #include "estimate/residual-series.h"
 #include "scene/scene-impl.h"
 
-/* Relative, of solves of rows and of samples. */
+/* The relative accuracy of the solve for a row, and of that for a sample. */
 #define ROW    3e-2
 #define SAMPLE 1e-1
 
@@ -36,8 +36,9 @@ static int is_turned(uint64_t k) {
   return (int)((x ^ (x >> 33)) & 1);
 }
 
-/* Sets e->rounding to the root of the squares of Mσ, for averages of B and of H, and of the
-   errors themselves: B is off by σr and ρ times what H is.  Changes e->max and e->error. */
+/* Sets e->rounding, used as work space here, to √(a² + s²) for the averages of B and of H: a is
+   the error itself, s that of the residuals with random signs, Mσ.  The error s of B is the
+   average of σr plus ρ times that of H.  Changes e->max and e->error. */
 static hr2d_status sample(hr2di_estimator *e) {
   hr2di_equation *eq = &e->eq;
   hr2di_transport *t = &eq->transport;
@@ -89,8 +90,9 @@ static void set_source(hr2di_estimator *e, int choice) {
   }
 }
 
-/* A |⟨r,Z⟩| on a leaf for the averages of B and of H: what the solve has left, and that of the
-   coefficients from p on, where there may be kinks at most that. */
+/* A |⟨r,Z⟩| on a leaf, for the averages of B and of H.  `left` is that of the coefficients
+   below p, which the solve has left.  `high` is that of the coefficients from p on, or an upper
+   bound of it if there may be kinks. */
 static void term_of(const hr2di_estimator *e, size_t leaf, size_t b, double unit,
                     double left[2], double high[2]) {
   const hr2di_equation *eq = &e->eq;
@@ -116,7 +118,8 @@ static void term_of(const hr2di_estimator *e, size_t leaf, size_t b, double unit
 }
 
 /* The sums over the row of the last solve in one band, for the averages of B and of H, and the
-   roots of the squares.  The Y of both differ by a factor on one patch: `unit` is ρH̄/B̄ there.
+   roots of the sums of squares.  The last solve gave Y for the average of H; Y for that of B is
+   this times a factor, ρH̄/B̄ of the patch of the row.
  */
 static void sum_row(hr2di_estimator *e, size_t b, double unit, double sum[2],
                     double scatter[2]) {

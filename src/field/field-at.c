@@ -13,10 +13,10 @@
 /* Points of a task. */
 enum { GROUP = 32 };
 
-/* What takes the stretches of a view.  Sums are those of what is seen; `far` has what images
-   that are cut off add to them, by series, `second_half` what the later half of the images
-   shows, `past` the sky that is seen past the ends although it is not there, and `current` a
-   stretch. */
+/* Takes the arcs of a view.  `sum` is the light that is seen, `far` that of images that are cut
+   off, extrapolated by series, `second_half` that of the later half of the images, `past` that
+   of the sky which shows past the ends although more images hide it, and `current` that of one
+   arc. */
 typedef struct observer {
   hr2di_field_worker *worker;
   hr2di_light_sum sum, far, second_half, past, current;
@@ -24,8 +24,8 @@ typedef struct observer {
   double *off;     /* per check of the series, and band: what it leaves of ∫ B dω */
   double ends;     /* angles of the ends, */
   double past_sky; /* and of sky that is past them */
-  double half_difference[2]; /* by which half of the images tell another angle of fronts and of
-                                sky */
+  double half_difference[2]; /* angles of fronts and of sky past the ends: as extrapolated from
+                                all images, minus as extrapolated from half of them */
   int mixed;                 /* a piece of the sky ends there */
 } observer;
 
@@ -47,7 +47,7 @@ static void add_times(hr2di_light_sum *to, double factor, const hr2di_light_sum 
   for (size_t b = 0; b < 2 * bands && to->flux; b++) to->flux[b] += factor * sum->flux[b];
 }
 
-/* Adds `current` as often as its series says. */
+/* Adds `current` times the weights of its image in the extrapolation. */
 static void add_current(observer *l, const hr2di_far_part *part) {
   const size_t bands = l->sum.of->solution->bands;
   const double weight = part->weight;
@@ -138,9 +138,10 @@ static void take_second_half(observer *l, double all) {
   for (size_t b = 0; b < bands; b++) l->off[b] = HUGE_VAL;
 }
 
-/* What the light past the ends is off by: what the checks of its series say, and no more than
-   that it may be all of the brightest light or nothing.  Where a piece of the sky ends there,
-   the series has the light of the horizon, and checks do not tell. */
+/* A bound of the error of the light past the ends: from the checks of its series, but no more
+   than the distance to nothing, or to the brightest light from all of that angle.  Where a
+   piece of the sky ends there, the series takes the light of the horizon, and the checks do not
+   show the error. */
 static double off_by(const observer *l, size_t band, double all) {
   const hr2di_light_source *of = l->sum.of;
   const double max = all * fmax(of->leaves.scale[band], hr2di_sky_max(of->scene, band));
@@ -150,7 +151,7 @@ static double off_by(const observer *l, size_t band, double all) {
   return fmin(HR2DI_TAIL_BOUND * off, fmax(is, max - fmin(is, 0)));
 }
 
-/* Where nothing is past the ends, roundings of what stands for it are nothing, too. */
+/* Adds the light past the ends; if the view has none, not even roundings of it are added. */
 static void join(observer *l) {
   const double all = l->ends + l->past_sky;
   if (!(all > 0)) return;
@@ -247,7 +248,7 @@ static hr2d_status do_group(void *ctx, hr2di_field_worker *w, size_t task) {
   return status;
 }
 
-/* Errors of leaves are measured if they are wanted and nobody gives any. */
+/* Measures the errors of leaves if they are wanted, and the caller gave none. */
 static hr2d_status find_errors(hr2di_field_call *f, const hr2d_solution *solution) {
   const hr2d_account *account = f->options.account;
   if (!f->values.error || f->options.patch_error || !account || !isfinite(account->sup.bound))

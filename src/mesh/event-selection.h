@@ -6,18 +6,20 @@
 #include "hierarchy/hierarchy-impl.h"
 #include "mesh/events.h"
 
-/* The light of patches, patches × bands: B, and that of the adjoint equation, which is what a
-   light on the patch does to all errors together; see importance.h. */
+/* A coarse solution of the equation and of its adjoint, patches × bands: the radiosity B, and
+   the importance, that is the effect of emission on a patch on all averages that count; see
+   importance.h. */
 typedef struct hr2di_primal_dual {
   double *radiosity, *importance;
   double contrast; /* the least average of B or of H that counts, relative to the largest */
 } hr2di_primal_dual;
 
-/* Divides leaves at events, those that make the largest part of the error first, until the
-   events inside elements make no more than `allowed`.  `unresolved_jump` receives, for elements
-   × bands, what the events that are left inside a leaf make of B beyond its polynomials, in the
-   mean; 0 for other elements.  The scene has no background.  It is from the hooks of the
-   hierarchy, and NULL without events. HR2D_OK; or, with a part of the divisions done,
+/* Divides leaves at events, first at those that cause the largest part of the error, until the
+   events left inside elements cause no more than `allowed`.  `unresolved_jump` receives, for
+   elements × bands, the mean size of the part of B that these events cause and that the
+   polynomials of the leaf cannot represent; 0 for other elements.  The allocator of the
+   hierarchy makes this array; it is NULL without events.  The scene must have no background.
+   HR2D_OK; or, with a part of the divisions done,
    HR2D_ENOMEM, HR2D_EMAX_ELEMENTS or the status of the watch. */
 hr2d_status hr2di_events_select(hr2d_hierarchy *hierarchy, const hr2di_events *events,
                                 const hr2di_primal_dual *lights, double allowed,

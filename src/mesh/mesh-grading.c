@@ -19,8 +19,8 @@
 #define SHORTEST  0x1p-44
 #define ROUNDINGS 0x1p10
 
-/* An element that shrinks to quarters has the corner at an ellipse of 5/3.  Places of quarters
-   are as exact as of halves. */
+/* If the quarter next to a corner is cut off an element, the corner lies on the ellipse m = 5/3
+   of the rest.  A cut at a quarter is as exact as one at a half. */
 #define QUARTER 0.25
 #define BEHIND  1.66
 
@@ -116,8 +116,7 @@ static void divide_at(hr2di_grader *g, uint32_t element, double cut) {
     hr2di_element_divide(g->h, element, cut, at);
 }
 
-/* Elements that are as short as elements may be make nothing of averages, however near an end
-   is. */
+/* Elements of the least length add nothing to errors of averages, however near an end is. */
 static int matters(const hr2di_grader *g, const part *e) {
   return g->grading->norm == HR2D_NORM_SUP || e->to - e->from >= g->shortest;
 }
@@ -188,9 +187,9 @@ static hr2d_status divide_patch(hr2di_grader *g, uint32_t patch) {
   return status;
 }
 
-/* Patches that reflect nothing have B = E and are not divided; H of their averages comes
-   exactly from the links. Only backs before a background, and pieces of the sky, are seen at
-   points of a rule, which kinks disturb. */
+/* Patches that reflect nothing have B = E and are not divided: the average of H comes exactly
+   from the links.  The exceptions are backs in front of a background, and pieces of the sky: a
+   quadrature rule samples them, and kinks disturb it.  Then g->all is set. */
 static hr2d_status find_backs(hr2di_grader *g) {
   const hr2d_scene *scene = g->h->scene;
   g->all = hr2di_external_has_pieces(scene);

@@ -12,7 +12,7 @@
 /* Counts the links that a refinement of an empty set makes, each share those of some rows, and
    deals rows out so that each has about the same.  Returns HR2D_OK, HR2D_ENOMEM or the status
    of the count, the same on all shares; `pieces` are to be cleared in any case.  What patches
-   see is kept in `looks`, unless that is NULL. */
+   see is kept in `beam_cache`, unless that is NULL. */
 hr2d_status hr2di_row_partition(hr2di_row_pieces *pieces, hr2d_linkset *links,
                                 hr2di_beam_cache *beam_cache,
                                 const hr2d_refine_options *options);

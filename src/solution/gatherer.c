@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A point of a patch sees parts of other patches, its visible intervals.  On the part of a leaf
    in a visible interval B_h is a polynomial; panels shrink towards the point, as those of near
-   blocks do. The form factor of a visible interval is known to all digits.  Its share that no
-   panel resolves, by rounding or since the point touches the patch, gets the B_h of the nearest
-   point of the visible interval.
+   blocks do. The form factor of a visible interval is known to all digits.  The sum over panels
+   may miss a part of it, because of roundings or because the point touches the patch.  That
+   part is multiplied by B_h at the nearest point of the visible interval.
 
    Coordinates of points and of leaves are rounded.  Where B changes within a distance that is
    no more than many roundings, as beside the end of one of two plates that nearly touch, that
@@ -21,10 +21,10 @@
 #include "solution/panels.h"
 #include "visibility/periodic-tail.h"
 
-/* A rule of n points is accurate to ρ^−(2n − order), on a panel that is just far enough to
-   3.19^−(2n − order).  At the largest order HR2DI_GATHER_POINTS make 3.19^−32 of that; at lower
-   ones, and on panels that are farther away, fewer points do.  One more is taken, as G is
-   singular on the ellipse, so that its coefficients are some times ρ^−k. */
+/* The error of a rule of n points is about ρ^−(2n − order); ρ = 3.19 on a panel that is just
+   far enough.  At the largest order HR2DI_GATHER_POINTS points make 3.19^−32.  At lower orders,
+   and on panels farther away, fewer points do.  One more point is taken: G is singular on the
+   ellipse, so its coefficients are several times ρ^−k. */
 static void set_rules(hr2di_gatherer *g) {
   const double near = HR2DI_NEAR_ELLIPSE, order = (double)g->solution->order;
   const double digits = 32 * log(near + sqrt(near * near - 1));
@@ -43,7 +43,7 @@ static const hr2di_rule *rule_for(hr2di_gatherer *g, double ellipse) {
   return &g->rule[n - 1];
 }
 
-/* A segment: the vector from x to its start, and its own. */
+/* A segment: the vector from x to its start, and that from its start to its end. */
 typedef struct chord {
   hr2d_point from, along;
 } chord;
@@ -289,8 +289,9 @@ static int is_dark(const hr2d_solution *s, size_t band) {
   return 1;
 }
 
-/* The light of the background.  If all patches are dark, nothing that reflects sees it: what a
-   point sees of it by roundings would be all the light that there is. */
+/* The light of the background.  If all patches are dark, no patch that reflects sees it.  A
+   form factor to it that is only rounding then counts as 0: it would be all the light there is.
+ */
 static double light_of_sky(const hr2di_gatherer *g, double factor, size_t band) {
   if (factor <= NONE && is_dark(g->solution, band)) return 0;
   return factor * hr2d_scene_background(g->solution->hierarchy->scene, band);

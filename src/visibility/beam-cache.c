@@ -8,7 +8,7 @@
 
 #include "base/alloc.h"
 
-/* Of `line classes` line classes and their points, and of `vertices` vertices, which lie behind
+/* Of `classes` line classes and their points, and of `vertices` vertices, which lie behind
    it; beams entered `steps` triangles. */
 struct hr2di_cached_beams {
   size_t classes, vertices;
@@ -62,7 +62,7 @@ static hr2d_status note(hr2di_beam_tracer *l, const hr2di_line_class *s, hr2di_w
   const hr2d_allocator *alloc = &l->walk.alloc;
   const int bare = l->beam_cache->highest[to] < l->patch;
   const size_t lefts = bare ? 0 : s->lefts, rights = bare ? 0 : s->rights;
-  if (hr2di_alloc_reserve(alloc, &l->line_class, &l->sight_room, l->classes + 1,
+  if (hr2di_alloc_reserve(alloc, &l->line_class, &l->class_room, l->classes + 1,
                           sizeof *l->line_class) ||
       hr2di_alloc_reserve(alloc, &l->point, &l->point_room, l->points + lefts + rights,
                           sizeof *l->point))

@@ -21,7 +21,7 @@ typedef struct hr2di_beam_cache {
   hr2di_beam_cache_slot *of; /* per patch */
   size_t patches;
   uint32_t *highest; /* per side of a wall edge: the patch of the highest number along it */
-  size_t max_bytes;  /* a look that takes more is not kept, so that no order matters */
+  size_t max_bytes;  /* per patch: the order of traces does not decide what is kept */
 } hr2di_beam_cache;
 
 /* For a committed scene with the effect of occlusion.  All looks together take up to `bytes`.
@@ -48,8 +48,8 @@ typedef struct hr2di_beam_tracer {
   void (*see)(void *ctx, uint32_t vertex); /* see hr2di_walk; may be NULL */
   void *ctx;
   hr2di_walk walk;
-  uint64_t steps; /* triangles that beams of all looks enter, or entered when a look was kept:
-                     no count depends on what is kept */
+  uint64_t steps; /* triangles that beams of all traces entered; a replayed trace counts as when
+                     it was made, so that the count does not depend on the cache */
   /* The look under way. */
   uint32_t patch;
   hr2di_wall_side from;
@@ -58,7 +58,7 @@ typedef struct hr2di_beam_tracer {
   hr2d_point *point;
   uint32_t *vertex;
   size_t classes, points, vertices;
-  size_t sight_room, point_room, vertex_room;
+  size_t class_room, point_room, vertex_room;
 } hr2di_beam_tracer;
 
 /* To be ended by hr2di_beam_tracer_clear(). */
@@ -66,10 +66,11 @@ hr2di_beam_tracer hr2di_beam_tracer_make(const hr2d_scene *scene, hr2di_beam_cac
                                          const hr2d_allocator *alloc, hr2di_watch *watch);
 void hr2di_beam_tracer_clear(hr2di_beam_tracer *tracer);
 
-/* Gives looker->take the line classes from all parts of a patch, and looker->see the vertices.
-   With `later`, line classes to sides where all patches have lower numbers may be NULL: looks
-   that are kept have no chains for them.  HR2D_OK, HR2D_ENOMEM, the status of the watch or of
-   `take`. The cost is that of the beams, or a tenth of it where the look was kept. */
+/* Gives tracer->take the line classes from all parts of a patch, and tracer->see the vertices.
+   With `later` the caller needs only patches with higher numbers.  Then a cached trace may be
+   replayed; `take` gets NULL for line classes to sides where all patches have lower numbers, as
+   the cache has no chains for them.  Returns HR2D_OK, HR2D_ENOMEM, the status of the watch or
+   of `take`.  The cost is that of the beams, or a tenth of it if the trace was cached. */
 hr2d_status hr2di_beam_tracer_trace(hr2di_beam_tracer *tracer, uint32_t patch, int later);
 
 #endif

@@ -15,10 +15,10 @@ typedef struct hr2di_pair_visibility {
   uint32_t *side; /* per line class: where it ends */
   size_t next_capacity, side_capacity;
   uint32_t *last;  /* per side: 1 + the last line class that ends there, or 0 */
-  uint32_t looked; /* 1 + the patch; 0 if none has */
-  int later;       /* it may lack line classes of patches with lower numbers */
-  uint32_t taken;  /* 1 + the patch to which those of the pair under way lead; 0: none */
-  hr2di_line_class_list turned; /* these, with the near ends on the patch of the lower number */
+  uint32_t looked; /* 1 + the patch from which `all` was traced; 0: none */
+  int later;       /* `all` may lack line classes to patches with lower numbers */
+  uint32_t taken;  /* 1 + the patch to which the line classes in `turned` lead; 0: none */
+  hr2di_line_class_list turned; /* of one pair, near ends on the patch of the lower number */
   uint64_t restricted;          /* line classes so far */
 } hr2di_pair_visibility;
 
@@ -35,11 +35,11 @@ typedef struct hr2di_patch_pair {
   hr2d_segment part[2];
 } hr2di_patch_pair;
 
-/* Appends to `list` what the parts see of each other, with the near ends on the patch of the
-   lower number, whichever comes first, and to `whole`, which may be NULL, the line classes
-   between walls of which that is a part.  Looks from the first patch, unless it has looked
-   last. HR2D_OK, HR2D_ENOMEM, HR2D_EMAX_BYTES at the limit of a list, or the status of the
-   watch. */
+/* Appends to `list` the line classes between the two parts.  Their near ends are on the patch
+   with the lower number, whatever the order of the parts.  Appends to `whole`, which may be
+   NULL, the line classes between walls from which those were restricted.  Traces beams from the
+   first patch, unless the last trace was from it.  HR2D_OK, HR2D_ENOMEM, HR2D_EMAX_BYTES at the
+   limit of a list, or the status of the watch. */
 hr2d_status hr2di_pair_visibility_between(hr2di_pair_visibility *visibility,
                                           const hr2di_patch_pair *pair,
                                           hr2di_line_class_list *list,

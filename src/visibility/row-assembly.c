@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Hands out blocks of rows to threads, walks beams, and sorts shares by rows.
+/* Hands out blocks of rows to threads, walks beams, and sorts contributions by rows.
 
    A line class is turned round if its right tangent goes down, so that it is shared in the same
    way whichever end found it, and whole rows are as symmetric as sums of half rows. */
@@ -25,7 +25,7 @@ struct hr2di_row_worker {
   hr2di_sparse_accumulator sum;
   hr2di_wall_side side; /* that is walked from */
   hr2di_parts near;     /* and the parts of it in the task */
-  int part;             /* the task has not all of them */
+  int part;             /* `near` is not the whole side */
   hr2d_point *turned;
   size_t turned_room;
   hr2di_contribution *sorted;
@@ -163,7 +163,7 @@ static hr2d_status view_around(hr2di_row_worker *w, const hr2di_row_task *t) {
   return status;
 }
 
-/* All patches, or those behind the rows', with nothing in the way. */
+/* Without occlusion: pairs each patch of the task with all others, or only with later ones. */
 static hr2d_status add_all(hr2di_row_worker *w, const hr2di_row_task *t) {
   const hr2di_row_assembly *m = w->maker;
   const hr2di_patch *patch = m->scene->patch;
@@ -182,7 +182,7 @@ static hr2d_status add_all(hr2di_row_worker *w, const hr2di_row_task *t) {
   return status;
 }
 
-/* Puts the shares of each row together; *share is where they are. */
+/* Groups the contributions by row; *share receives the array that has them. */
 static hr2d_status sort_rows(hr2di_row_worker *w, const hr2di_row_task *t, size_t *start,
                              hr2di_contribution **share) {
   const size_t rows = t->last - t->first;
@@ -222,7 +222,7 @@ static hr2d_status make_rows(hr2di_row_worker *w, size_t worker, const hr2di_row
   return status;
 }
 
-/* Every thread looks whether another has failed. */
+/* A worker does no more tasks if another one has failed. */
 static void do_task(void *ctx, size_t worker, size_t task) {
   hr2di_row_assembly *m = ctx;
   hr2di_row_worker *w = &m->worker[worker];
@@ -234,7 +234,7 @@ static void do_task(void *ctx, size_t worker, size_t task) {
   atomic_store(&m->stop, 1);
 }
 
-/* Of the first that failed and was not told to stop. */
+/* Returns the status of the first worker that failed by itself, not by being told to stop. */
 hr2d_status hr2di_row_assembly_run(hr2di_row_assembly *m, size_t first, size_t last,
                                    hr2di_row_fn take, void *ctx) {
   m->take = take;
