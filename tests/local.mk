@@ -365,8 +365,9 @@ PAPERWORK = tests/docs/check-docs.sh tests/program/check-help.sh tests/program/c
 	tests/package/check-constants.sh tests/package/check-exports.sh \
 	tests/package/check-headers.sh tests/package/check-layers.sh \
 	tests/package/check-python.sh tests/adversary/check-adversary-controls.sh
+# Each suite is one process: forks of a process with sanitizers took most of the time.
 check-sanitized:
-	$(MAKE) check TESTS='$(filter-out $(PAPERWORK),$(TESTS))'
+	CK_FORK=no $(MAKE) check TESTS='$(filter-out $(PAPERWORK),$(TESTS))'
 
 # All compilers, levels of optimisation and sanitizers; takes an hour.
 check-matrix:
