@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The error of an average is Σ A ⟨r, Z⟩ over leaves, with its importance Z (see safe-sum.c).
-   The importance of all averages that are too far off is that of the sum of their sources: one
-   solve.  Of r and Z the coefficients from p on tell what halves of the leaf would get right:
+/* The error of an average is Σ A ⟨r, Z⟩ over leaves, with its importance Z (see
+   unsigned-error.c). The importance of all averages that are too far off is that of the sum of
+   their sources: one solve.  Of r and Z the coefficients from p on tell what halves of the leaf
+   would get right:
 
      share = A Σ_l |r_l Z_l|, p ≤ l < p + 2.
 

@@ -11,8 +11,8 @@
    e->rounding.  Returns HR2D_OK or the status of a solve. */
 hr2d_status hr2di_unsigned_error(hr2di_estimator *e);
 
-/* Sets the irradiance to Z of a source of importance: see safe-sum.c.  Changes the source and
-   e->error.  Returns HR2D_OK or the status of a solve. */
+/* Sets the irradiance to Z of a source of importance: see unsigned-error.c.  Changes the source
+   and e->error.  Returns HR2D_OK or the status of a solve. */
 hr2d_status hr2di_unsigned_row(hr2di_estimator *e);
 
 #endif

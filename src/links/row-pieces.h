@@ -3,7 +3,7 @@
 
    A row has all links of a patch with later ones.  A long row is cut into slots by the other
    patches of its pairs, so that whoever has some slots tests no pair of the others for
-   visibility.  Behind the slots of a cut row stands one more, for the look round from its
+   visibility.  Behind the slots of a cut row stands one more, for the beams from its
    patch, which is made once for all of them.  A slot that still has too many links is cut into
    pieces: with m pieces, link k of a slot is of piece k mod m.  Links come in an order that
    depends on the scene alone, so that pieces have the same number of links, but for one. */
@@ -22,13 +22,13 @@ typedef struct hr2di_row_pieces {
   unsigned char *rows; /* per row: some slot is; NULL: nobody has dealt */
 } hr2di_row_pieces;
 
-/* The number of slots of a row, without the one for its look round. */
+/* The number of slots of a row, without the one for its beams. */
 static inline uint32_t hr2di_row_slots(const hr2di_row_pieces *p, size_t row) {
   const uint32_t all = p->slot[row + 1] - p->slot[row];
   return all > 1 ? all - 1 : 1;
 }
 
-/* The slot of the look round of a row that is cut. */
+/* The slot of the beams of a row that is cut. */
 static inline uint32_t hr2di_row_trace_slot(const hr2di_row_pieces *p, size_t row) {
   return p->slot[row + 1] - 1;
 }

@@ -16,7 +16,7 @@ typedef struct hr2di_visible_vertices {
   uint32_t patch; /* 1 + the last one */
 } hr2di_visible_vertices;
 
-/* For a committed scene with the effect of occlusion; looks that are kept may be NULL. HR2D_OK,
+/* For a committed scene with the effect of occlusion; the cache may be NULL. HR2D_OK,
    HR2D_ENOMEM or the status of the watch; to be ended by hr2di_visible_vertices_clear() in any
    case.
  */

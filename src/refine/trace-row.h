@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The look round from the patch of a row of which several shares have slots. */
+/* Traces the beams from the patch of a row of which several shares have slots. */
 #ifndef HR2D_SRC_REFINE_TRACE_ROW_H
 #define HR2D_SRC_REFINE_TRACE_ROW_H
 

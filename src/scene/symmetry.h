@@ -9,7 +9,7 @@
 
    Of the pairs of patches that a motion maps to each other one is linked.  With B = Σ over
    links as on any scene, what arrives on gP arrives on P: H on P is the sum of H over all gP,
-   see solve/image-ties.h.
+   see solve/image-map.h.
 
    There are infinitely many T^k.  Those with |k| ≤ K are taken.  Behind them stand black ends
    across the scene, which show how much is cut off. */

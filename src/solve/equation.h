@@ -11,7 +11,7 @@
 #include "solve/transport.h"
 #include "visibility/beam-cache.h"
 
-/* When a solve may end before its residual has the tolerance: see equation-enough.c. */
+/* When a solve may end before its residual has the tolerance: see stopping-test.c. */
 typedef struct hr2di_stopping_test {
   double part;          /* that the residual may have; 0: the tolerance alone counts */
   double floor;         /* without weights: no leaf counts as less bright, relative to the

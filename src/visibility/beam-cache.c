@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Beams from a patch find the same line classes in the same order each time, and so a look that
-   is kept gives the same bits as one that walks.  Each pair of patches is asked for from the
-   one with the lower number: from the other one only that they see each other is kept. */
+/* Beams from a patch find the same line classes in the same order each time, and so a trace
+   that is kept gives the same bits as one that walks.  Each pair of patches is asked for from
+   the one with the lower number: from the other one only that they see each other is kept. */
 #include "visibility/beam-cache.h"
 
 #include <string.h>
@@ -57,7 +57,7 @@ static size_t bytes_of(const hr2di_beam_tracer *l) {
          l->classes * sizeof *l->line_class + l->vertices * sizeof *l->vertex;
 }
 
-/* Notes a line class for the look that is to be kept. */
+/* Notes a line class for the trace that is to be kept. */
 static hr2d_status note(hr2di_beam_tracer *l, const hr2di_line_class *s, hr2di_wall_side to) {
   const hr2d_allocator *alloc = &l->walk.alloc;
   const int bare = l->beam_cache->highest[to] < l->patch;
@@ -84,7 +84,7 @@ static hr2d_status take(void *ctx, const hr2di_line_class *s, hr2di_wall_side to
   return status ? status : l->take(l->ctx, s, l->from, to);
 }
 
-/* A vertex for which there is no memory costs the look, and not the call. */
+/* A vertex for which there is no memory costs the trace, and not the call. */
 static void see(void *ctx, uint32_t vertex) {
   hr2di_beam_tracer *l = ctx;
   if (l->see) l->see(l->ctx, vertex);

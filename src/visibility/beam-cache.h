@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What patches see, by beams from their walls.  A look may be kept, and the next one from the
+/* What patches see, by beams from their walls.  A trace may be kept, and the next one from the
    same patch walks no beams. */
 #ifndef HR2D_SRC_VISIBILITY_BEAM_CACHE_H
 #define HR2D_SRC_VISIBILITY_BEAM_CACHE_H
@@ -24,7 +24,7 @@ typedef struct hr2di_beam_cache {
   size_t max_bytes;  /* per patch: the order of traces does not decide what is kept */
 } hr2di_beam_cache;
 
-/* For a committed scene with the effect of occlusion.  All looks together take up to `bytes`.
+/* For a committed scene with the effect of occlusion.  All traces together take up to `bytes`.
    HR2D_OK or HR2D_ENOMEM; to be ended by hr2di_beam_cache_clear() in any case. */
 hr2d_status hr2di_beam_cache_init(hr2di_beam_cache *beam_cache, const hr2d_scene *scene,
                                   uint64_t bytes);
@@ -40,7 +40,7 @@ typedef struct hr2di_cached_line_class {
   uint32_t lefts, rights, ends;
 } hr2di_cached_line_class;
 
-/* One thread that looks. */
+/* One thread that traces. */
 typedef struct hr2di_beam_tracer {
   const hr2d_scene *scene;
   hr2di_beam_cache *beam_cache; /* NULL: nothing is kept */
@@ -50,7 +50,7 @@ typedef struct hr2di_beam_tracer {
   hr2di_walk walk;
   uint64_t steps; /* triangles that beams of all traces entered; a replayed trace counts as when
                      it was made, so that the count does not depend on the cache */
-  /* The look under way. */
+  /* The trace under way. */
   uint32_t patch;
   hr2di_wall_side from;
   int keeps;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What patches see of each other, as line classes: the look from a patch is kept for its pairs.
+/* What patches see of each other, as line classes: the trace from a patch is kept for its
+ * pairs.
  */
 #ifndef HR2D_SRC_VISIBILITY_PAIR_VISIBILITY_H
 #define HR2D_SRC_VISIBILITY_PAIR_VISIBILITY_H
@@ -7,7 +8,7 @@
 #include "beams/line-class-list.h"
 #include "visibility/beam-cache.h"
 
-/* Work space of one thread, and the last look. */
+/* Work space of one thread, and the last trace. */
 typedef struct hr2di_pair_visibility {
   hr2di_beam_tracer tracer;
   hr2di_line_class_list all; /* from the walls of the patch that looked */
@@ -22,7 +23,7 @@ typedef struct hr2di_pair_visibility {
   uint64_t restricted;          /* line classes so far */
 } hr2di_pair_visibility;
 
-/* For a committed scene with the effect of occlusion; looks that are kept may be NULL.  HR2D_OK
+/* For a committed scene with the effect of occlusion; the cache may be NULL.  HR2D_OK
    or HR2D_ENOMEM; to be ended by hr2di_pair_visibility_clear() in any case. */
 hr2d_status hr2di_pair_visibility_init(hr2di_pair_visibility *visibility,
                                        const hr2d_scene *scene, hr2di_beam_cache *beam_cache,

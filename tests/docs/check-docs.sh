@@ -103,6 +103,25 @@ nowhere() {
 # shellcheck disable=SC2046
 check "paths in pages lead to files; not: $(nowhere $(cat "$work/pages"))" \
   [ -z "$(nowhere $(cat "$work/pages"))" ]
+
+# unnamed FILE...: names of C files without a folder, in code of pages and in comments, that no file
+# has; room.c is the reader's own.
+find src include tools tests bench petsc fuzz examples -name '*.[ch]' | sed 's|.*/||' | sort -u >"$work/names"
+unnamed() {
+  for file; do
+    case $file in
+    *.md) grep -o '`[a-z0-9][a-z0-9-]*\.[ch]`' "$file" | tr -d '`' ;;
+    *) grep -oE '(^|[ (])[a-z0-9]+(-[a-z0-9]+)+\.[ch]\b' "$file" | tr -d ' (' ;;
+    esac | grep -vxF -e room.c -f "$work/names" | sed "s|^|$file: |"
+  done
+}
+find src -name '*.[ch]' >"$work/sources"
+# shellcheck disable=SC2046
+check "names of files exist; not: $(unnamed $(cat "$work/pages" "$work/sources"))" \
+  [ -z "$(unnamed $(cat "$work/pages" "$work/sources"))" ]
+# shellcheck disable=SC2016
+printf '`no-such.c` and `walls.h`\n' >"$work/named.md"
+check "one that does not would be found" [ "$(unnamed "$work/named.md")" = "$work/named.md: no-such.c" ]
 # shellcheck disable=SC2016
 printf '`src/LAYERS`, `bench/rows` and `src/none.c`\n' >"$work/page.md"
 check "one that does not would be found" \
