@@ -158,7 +158,7 @@ static void measure_views(const plan_family *f) {
 }
 
 static void measure_all_views(void) {
-  printf("%-8s%8s%12s%12s\n", "views", "N", "a second", "glimpses");
+  printf("%-8s%8s%12s%12s\n", "views", "N", "a second", "intervals");
   for (int k = 0; k < PLAN_FAMILIES; k++)
     if (is_wanted(plan_families[k].name)) measure_views(&plan_families[k]);
 }

@@ -311,14 +311,14 @@ static hr2d_status approach(heat_search *s) {
 }
 
 static hr2d_status reach(heat_search *s) {
-  hr2d_status status = approach(s), frozen = status;
-  for (int k = 0; k < FINE_SOLVES && !frozen; k++) {
+  hr2d_status status = approach(s), settled = status;
+  for (int k = 0; k < FINE_SOLVES && !settled; k++) {
     status = solve(s, 0.6);
-    frozen = is_usable(s, status) ? settle(s) : status;
-    if (!frozen && s->moved <= MAX_CHANGE) break;
+    settled = is_usable(s, status) ? settle(s) : status;
+    if (!settled && s->moved <= MAX_CHANGE) break;
   }
-  if (!frozen) frozen = renew(s);
-  if (frozen) return frozen;
+  if (!settled) settled = renew(s);
+  if (settled) return settled;
   if (!s->given.no_error) raise_errors(s);
   return status;
 }

@@ -145,8 +145,8 @@ hr2d_status hr2di_search_fallback(hr2di_search *s) {
   if (s->given.max_bytes && (double)s->given.max_bytes < min) return HR2D_OK;
   hr2d_status status = hr2di_fallback_solve(
       &answer, s->scene, &s->given,
-      (hr2di_fallback_solve_times){s->start + HR2DI_CHOICE_SKETCH_FACTORS * all,
-                                   s->start + HR2DI_CHOICE_SKETCH * all},
+      (hr2di_fallback_solve_times){s->start + HR2DI_CHOICE_FALLBACK_FACTORS * all,
+                                   s->start + HR2DI_CHOICE_FALLBACK * all},
       &out_of_time);
   add_times(&s->account, &answer);
   if (!status) keep(s, &answer, &unknown);

@@ -103,8 +103,8 @@
 
 /* With a budget of seconds: the parts for the factors of the first answer, and for all of it.
    `bench-budgets` shows what is kept. */
-#define HR2DI_CHOICE_SKETCH_FACTORS 0.8
-#define HR2DI_CHOICE_SKETCH         0.95
+#define HR2DI_CHOICE_FALLBACK_FACTORS 0.8
+#define HR2DI_CHOICE_FALLBACK         0.95
 
 /* Bytes for what patches see, where the caller counts none.  Not moved. */
 #define HR2DI_CHOICE_SEEN_BYTES 0x40000000

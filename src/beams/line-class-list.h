@@ -45,7 +45,7 @@ uint64_t hr2di_line_class_list_bytes(const hr2di_line_class_list *list);
 /* Removes all line classes but the first `count`; all, if they were sorted. */
 void hr2di_line_class_list_cut(hr2di_line_class_list *list, size_t count);
 
-/* Sight k; its chains are lost when the list grows. */
+/* Line class k; its chains are lost when the list grows. */
 hr2di_line_class hr2di_line_class_list_at(const hr2di_line_class_list *list, size_t k);
 
 /* Appends a line class between two segments. */

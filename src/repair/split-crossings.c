@@ -91,24 +91,23 @@ static hr2d_status make_walls(splitter *p) {
    a wall that the patch has already, the loop is left out: all from the first piece there to
    the last, which is kept if both run the same way.  Without this, pieces can double in each
    round, between the same few points (fuzz/corpus/api/loops). */
-static hr2d_status drop_loops(splitter *p, int *dropped) {
+static hr2d_status drop_loops(splitter *p) {
   size_t *latest = hr2di_alloc_zero(p->alloc, p->walls, sizeof *latest), kept = 0;
   size_t *next = hr2di_alloc(p->alloc, p->pieces, sizeof *next);
-  *dropped = 0;
   hr2d_status status = latest && next ? HR2D_OK : HR2D_ENOMEM;
   for (size_t k = p->pieces; k-- > 0 && !status;) {
     const size_t wall = p->wall_of[k], last = latest[wall]; /* 1 + the last piece there; 0 */
     const int again = last > 0 && p->piece[last - 1].patch == p->piece[k].patch;
     if (!again) latest[wall] = k + 1;
     next[k] = !again ? k : is_same(p->piece[k].s, p->piece[last - 1].s) ? last - 1 : last;
+    status = hr2di_watch_work(p->cuts.watch, 1);
   }
-  for (size_t k = 0; k < p->pieces && !status;)
-    if (next[k] != k) {
-      k = next[k];
-      *dropped = 1;
-    } else {
+  for (size_t k = 0; k < p->pieces && !status;) {
+    if (next[k] == k)
       p->piece[kept++] = p->piece[k++];
-    }
+    else
+      k = next[k];
+  }
   if (!status) p->pieces = kept;
   hr2di_alloc_free(p->alloc, latest);
   hr2di_alloc_free(p->alloc, next);
@@ -232,10 +231,10 @@ static hr2d_status cut_at_ends(splitter *p, int *bent) {
 static hr2d_status cut_until_free(splitter *p) {
   hr2d_scene *scene = p->scene;
   for (int round = 0;; round++) {
-    int looped = 0;
     hr2d_status status = make_walls(p);
-    if (!status && round > 0) status = drop_loops(p, &looped);
-    if (!status && looped) status = make_walls(p);
+    const size_t pieces = p->pieces;
+    if (!status && round > 0) status = drop_loops(p);
+    if (!status && p->pieces < pieces) status = make_walls(p);
     if (!status) status = hr2di_cuts_init(&p->cuts, p->wall, p->walls);
     int bent = 0;
     if (!status && p->cuts.count == 0 && p->pieces > scene->patches && round < MOST_ROUNDS)

@@ -26,7 +26,7 @@
 #include "solve/equation.h"
 
 typedef struct hr2di_heat_balance {
-  hr2d_scene *scene; /* settled */
+  hr2d_scene *scene; /* of frozen temperatures */
   hr2di_equation eq;
   size_t count;     /* patches of given flux that heat reaches */
   size_t *patch;    /* their indices */

@@ -365,7 +365,7 @@ static hr2d_status count_solve(void *ctx, const hr2d_progress *progress) {
 
 /* With one link at most the answer is a fallback solve, whose work is the light from outside:
    each patch looks at each piece of the sky, in .1 µs or more. */
-START_TEST(sketches_declare_the_light_from_outside) {
+START_TEST(fallbacks_declare_the_light_from_outside) {
   enum { PATCHES = 2000, PIECES = 24 };
   hr2d_sky_piece piece[PIECES];
   double value[PIECES];
@@ -459,6 +459,6 @@ TEST_SUITE("check-polls") {
   REPEAT_TESTS(SLOW_PHASES, "stops", every_phase_stops_at_any_question);
   ADD_TESTS("callbacks", teams_stop, callbacks_of_calls_come_before_that_of_the_scene,
             stopped_commits_say_so, warnings_come_with_questions_between,
-            sketches_declare_the_light_from_outside);
+            fallbacks_declare_the_light_from_outside);
   ADD_TESTS("base", sorts_are_sorted, teams_share_tasks_and_stop_together);
 }
