@@ -1,153 +1,154 @@
-# The tests: Check programs, and scripts for the program and the package.  A program
-# without a list of sources is built from the one file of its name.  tests/support/suite.c says what
-# it does with the marks of Check.
+# The tests: suites of Check, and scripts for the program and the package.  All suites are linked into
+# one program, which runs the one whose file it is given: a program each would be 16 MB of library to
+# link 140 times.  tests/support/suite.c says what it does with the marks of Check.
 AM_CPPFLAGS = $(PUBLIC_CPPFLAGS) -I$(srcdir)/src -I$(srcdir)/tests $(GSL_CFLAGS) $(JANSSON_CFLAGS) \
 	$(CHECK_CFLAGS) -D_mark_point=test_mark_point $(MPFR_CFLAGS)
 LDADD = tests/libsupport.la libhr2d-core.la $(CHECK_LIBS) $(MPFR_LIBS) $(THREADS_LIBS)
 
 # The longest ones begin: one that began last would run alone.
 SUITES = \
-	tests/unit/accuracy/check-short-patches \
-	tests/unit/accuracy/check-shares \
-	tests/unit/solution/check-irradiance-points \
-	tests/unit/clusters/check-clusters \
-	tests/unit/oracle/check-l1 \
-	tests/unit/field/check-field-grid \
-	tests/faults/check-polls \
-	tests/faults/check-faults-accuracy \
-	tests/faults/check-scene-progress \
-	tests/unit/base/check-black-body \
-	tests/unit/base/check-options \
-	tests/unit/base/check-status \
-	tests/unit/geometry/check-geometry \
-	tests/unit/geometry/check-exchange-area \
-	tests/unit/geometry/check-hull \
-	tests/unit/geometry/check-stars \
-	tests/unit/triangulation/check-triangulation \
-	tests/unit/beams/check-line-class \
-	tests/unit/beams/check-walk \
-	tests/bounds/check-bounds-geometry \
-	tests/bounds/check-bounds-oracles \
-	tests/bounds/check-bounds-l1 \
-	tests/bounds/check-bounds-study \
-	tests/bounds/check-bounds-visibility \
-	tests/bounds/check-bounds-solution \
-	tests/hard/check-hard-geometry \
-	tests/hard/check-hard-oracles \
-	tests/unit/scene/check-patches \
-	tests/unit/scene/check-positions \
-	tests/unit/scene/check-redrawn \
-	tests/unit/scene/check-commit-searches \
-	tests/unit/scene/check-effect-reasons \
-	tests/unit/repair/check-crossings \
-	tests/unit/scene/check-bent-walls \
-	tests/unit/repair/check-snap \
-	tests/unit/scene/check-sunlight \
-	tests/unit/scene/check-images \
-	tests/unit/scene/check-period-weights \
-	tests/unit/formats/check-geojson \
-	tests/unit/formats/check-memory \
-	tests/unit/formats/check-vs2 \
-	tests/unit/lint/check-mistakes \
-	tests/unit/lint/check-drawings \
-	tests/unit/hierarchy/check-hierarchy \
-	tests/unit/hierarchy/check-fields \
-	tests/unit/refine/check-refine \
-	tests/unit/refine/check-partition \
-	tests/unit/refine/check-rows \
-	tests/unit/refine/check-claims \
-	tests/unit/refine/check-image-elements \
-	tests/unit/links/check-linkset \
-	tests/unit/links/check-store \
-	tests/unit/refine/check-validate \
-	tests/unit/refine/check-validate-ulps \
-	tests/paper/check-theorem \
-	tests/unit/oracle/check-squares \
-	tests/unit/solution/check-period-points \
-	tests/unit/solution/check-points \
-	tests/unit/solution/check-emissivity \
-	tests/unit/solution/check-heat-bands \
-	tests/unit/solution/check-heat-images \
-	tests/unit/solution/check-heat-links \
-	tests/unit/solution/check-temperatures \
-	tests/unit/solution/check-thermal-calls \
-	tests/unit/field/check-field \
-	tests/unit/field/check-field-rows \
-	tests/unit/field/check-field-errors \
-	tests/unit/field/check-past-ends \
-	tests/unit/solve/check-solve \
-	tests/unit/solve/check-background \
-	tests/unit/solve/check-sky \
-	tests/unit/solve/check-sun \
-	tests/unit/solve/check-mirrors \
-	tests/unit/solve/check-periods \
-	tests/unit/solve/check-closure \
-	tests/unit/solve/check-equation-enough \
-	tests/unit/solve/check-equation-part \
-	tests/unit/solve/check-gather-areas \
-	tests/unit/solve/check-gather-links \
-	tests/unit/solve/check-leading-blocks \
-	tests/unit/solve/check-row-sums \
-	tests/unit/solve/check-adopt \
-	tests/unit/solve/check-image-scales \
-	tests/unit/solve/check-lengths \
-	tests/unit/refine/check-occlusion \
-	tests/unit/scene/check-effects \
-	tests/unit/occlusion/check-visibility \
-	tests/hard/check-hard-visibility \
-	tests/hard/check-hard-scenes \
-	tests/unit/visibility/check-exchange-matrix \
-	tests/unit/visibility/check-exchange-rows \
-	tests/unit/visibility/check-period-rows \
-	tests/unit/visibility/check-image-memory \
-	tests/unit/visibility/check-pair-visibility \
-	tests/unit/visibility/check-back-visibility \
-	tests/unit/visibility/check-beam-cache \
-	tests/unit/mesh/check-visible-vertices \
-	tests/unit/blocks/check-blocks \
-	tests/unit/blocks/check-directions \
-	tests/unit/blocks/check-moments \
-	tests/unit/solve/check-order \
-	tests/unit/solve/check-slices \
-	tests/unit/accuracy/check-known-radiosities \
-	tests/unit/accuracy/check-random-accuracy \
-	tests/unit/accuracy/check-random-periods \
-	tests/unit/accuracy/check-target-calls \
-	tests/unit/estimate/check-cluster-residuals \
-	tests/unit/estimate/check-error-indicators \
-	tests/unit/estimate/check-single-blocks \
-	tests/unit/accuracy/check-importance \
-	tests/unit/accuracy/check-found-errors \
-	tests/unit/enclosure/check-enclosure \
-	tests/unit/enclosure/check-enclosure-factors \
-	tests/unit/mesh/check-event-selection \
-	tests/unit/accuracy/check-measured-errors \
-	tests/unit/accuracy/check-budgets \
-	tests/unit/accuracy/check-cracks \
-	tests/unit/accuracy/check-dark \
-	tests/unit/estimate/check-roundings \
-	tests/unit/accuracy/check-shadow-edges \
-	tests/unit/clusters/check-far-exchange \
-	tests/unit/clusters/check-root-pairs \
-	tests/unit/mesh/check-corner \
-	tests/unit/mesh/check-events \
-	tests/unit/mesh/check-shared-events \
-	tests/unit/visibility/check-point-beams \
-	tests/unit/visibility/check-point-view \
-	tests/unit/visibility/check-point-view-walls \
-	tests/unit/state/check-state \
-	tests/unit/state/check-state-scene \
-	tests/unit/refine/check-study \
-	tests/hard/check-hard-refine \
-	tests/hard/check-hard-solve \
-	tests/arguments/check-arguments \
-	tests/threads/check-threads \
-	tests/threads/check-team \
-	tests/faults/check-faults \
-	tests/faults/check-divided-faults \
-	tests/faults/check-share-faults \
-	tests/faults/check-faults-callbacks \
-	tests/faults/check-faults-malloc
+	tests/unit/accuracy/check-short-patches.c \
+	tests/unit/accuracy/check-shares.c \
+	tests/unit/solution/check-irradiance-points.c \
+	tests/unit/clusters/check-clusters.c \
+	tests/unit/oracle/check-l1.c \
+	tests/unit/field/check-field-grid.c \
+	tests/faults/check-polls.c \
+	tests/faults/check-faults-accuracy.c \
+	tests/faults/check-scene-progress.c \
+	tests/unit/base/check-black-body.c \
+	tests/unit/base/check-options.c \
+	tests/unit/base/check-status.c \
+	tests/unit/geometry/check-geometry.c \
+	tests/unit/geometry/check-exchange-area.c \
+	tests/unit/geometry/check-hull.c \
+	tests/unit/geometry/check-stars.c \
+	tests/unit/triangulation/check-triangulation.c \
+	tests/unit/beams/check-line-class.c \
+	tests/unit/beams/check-walk.c \
+	tests/bounds/check-bounds-geometry.c \
+	tests/bounds/check-bounds-oracles.c \
+	tests/bounds/check-bounds-l1.c \
+	tests/bounds/check-bounds-study.c \
+	tests/bounds/check-bounds-visibility.c \
+	tests/bounds/check-bounds-solution.c \
+	tests/hard/check-hard-geometry.c \
+	tests/hard/check-hard-oracles.c \
+	tests/unit/scene/check-patches.c \
+	tests/unit/scene/check-positions.c \
+	tests/unit/scene/check-redrawn.c \
+	tests/unit/scene/check-commit-searches.c \
+	tests/unit/scene/check-effect-reasons.c \
+	tests/unit/repair/check-crossings.c \
+	tests/unit/scene/check-bent-walls.c \
+	tests/unit/repair/check-snap.c \
+	tests/unit/scene/check-sunlight.c \
+	tests/unit/scene/check-images.c \
+	tests/unit/scene/check-period-weights.c \
+	tests/unit/formats/check-geojson.c \
+	tests/unit/formats/check-memory.c \
+	tests/unit/formats/check-vs2.c \
+	tests/unit/lint/check-mistakes.c \
+	tests/unit/lint/check-drawings.c \
+	tests/unit/hierarchy/check-hierarchy.c \
+	tests/unit/hierarchy/check-fields.c \
+	tests/unit/refine/check-refine.c \
+	tests/unit/refine/check-partition.c \
+	tests/unit/refine/check-rows.c \
+	tests/unit/refine/check-claims.c \
+	tests/unit/refine/check-image-elements.c \
+	tests/unit/links/check-linkset.c \
+	tests/unit/links/check-store.c \
+	tests/unit/refine/check-validate.c \
+	tests/unit/refine/check-validate-ulps.c \
+	tests/paper/check-theorem.c \
+	tests/unit/oracle/check-squares.c \
+	tests/unit/solution/check-period-points.c \
+	tests/unit/solution/check-points.c \
+	tests/unit/solution/check-emissivity.c \
+	tests/unit/solution/check-heat-bands.c \
+	tests/unit/solution/check-heat-images.c \
+	tests/unit/solution/check-heat-links.c \
+	tests/unit/solution/check-temperatures.c \
+	tests/unit/solution/check-thermal-calls.c \
+	tests/unit/field/check-field.c \
+	tests/unit/field/check-field-rows.c \
+	tests/unit/field/check-field-errors.c \
+	tests/unit/field/check-past-ends.c \
+	tests/unit/solve/check-solve.c \
+	tests/unit/solve/check-background.c \
+	tests/unit/solve/check-sky.c \
+	tests/unit/solve/check-sun.c \
+	tests/unit/solve/check-mirrors.c \
+	tests/unit/solve/check-periods.c \
+	tests/unit/solve/check-closure.c \
+	tests/unit/solve/check-equation-enough.c \
+	tests/unit/solve/check-equation-part.c \
+	tests/unit/solve/check-gather-areas.c \
+	tests/unit/solve/check-gather-links.c \
+	tests/unit/solve/check-leading-blocks.c \
+	tests/unit/solve/check-row-sums.c \
+	tests/unit/solve/check-adopt.c \
+	tests/unit/solve/check-image-scales.c \
+	tests/unit/solve/check-lengths.c \
+	tests/unit/refine/check-occlusion.c \
+	tests/unit/scene/check-effects.c \
+	tests/unit/occlusion/check-visibility.c \
+	tests/hard/check-hard-visibility.c \
+	tests/hard/check-hard-scenes.c \
+	tests/unit/visibility/check-exchange-matrix.c \
+	tests/unit/visibility/check-exchange-rows.c \
+	tests/unit/visibility/check-period-rows.c \
+	tests/unit/visibility/check-image-memory.c \
+	tests/unit/visibility/check-pair-visibility.c \
+	tests/unit/visibility/check-back-visibility.c \
+	tests/unit/visibility/check-beam-cache.c \
+	tests/unit/mesh/check-visible-vertices.c \
+	tests/unit/blocks/check-blocks.c \
+	tests/unit/blocks/check-directions.c \
+	tests/unit/blocks/check-moments.c \
+	tests/unit/solve/check-order.c \
+	tests/unit/solve/check-slices.c \
+	tests/unit/accuracy/check-known-radiosities.c \
+	tests/unit/accuracy/check-random-accuracy.c \
+	tests/unit/accuracy/check-random-periods.c \
+	tests/unit/accuracy/check-target-calls.c \
+	tests/unit/estimate/check-cluster-residuals.c \
+	tests/unit/estimate/check-error-indicators.c \
+	tests/unit/estimate/check-single-blocks.c \
+	tests/unit/accuracy/check-importance.c \
+	tests/unit/accuracy/check-found-errors.c \
+	tests/unit/enclosure/check-enclosure.c \
+	tests/unit/enclosure/check-enclosure-factors.c \
+	tests/unit/mesh/check-event-selection.c \
+	tests/unit/accuracy/check-measured-errors.c \
+	tests/unit/accuracy/check-budgets.c \
+	tests/unit/accuracy/check-cracks.c \
+	tests/unit/accuracy/check-dark.c \
+	tests/unit/estimate/check-roundings.c \
+	tests/unit/accuracy/check-shadow-edges.c \
+	tests/unit/clusters/check-far-exchange.c \
+	tests/unit/clusters/check-root-pairs.c \
+	tests/unit/mesh/check-corner.c \
+	tests/unit/mesh/check-events.c \
+	tests/unit/mesh/check-shared-events.c \
+	tests/unit/visibility/check-point-beams.c \
+	tests/unit/visibility/check-point-view.c \
+	tests/unit/visibility/check-point-view-walls.c \
+	tests/unit/state/check-state.c \
+	tests/unit/state/check-state-scene.c \
+	tests/unit/refine/check-study.c \
+	tests/hard/check-hard-refine.c \
+	tests/hard/check-hard-solve.c \
+	tests/arguments/check-arguments.c \
+	tests/threads/check-threads.c \
+	tests/faults/check-faults.c \
+	tests/faults/check-divided-faults.c \
+	tests/faults/check-share-faults.c \
+	tests/faults/check-faults-callbacks.c
+
+# They replace functions of the system, in a program of their own.
+REPLACING = tests/threads/check-team tests/faults/check-faults-malloc
 
 OUTSIDE = \
 	tests/adversary/check-adversary.sh \
@@ -173,12 +174,15 @@ OUTSIDE = \
 	tests/package/check-release.sh \
 	tests/adversary/check-adversary-controls.sh
 
-TEST_EXTENSIONS = .sh
+TEST_EXTENSIONS = .sh .c
 SH_LOG_COMPILER = $(SHELL)
+C_LOG_COMPILER = $(SUITE_RUNNER) tests/check-suites$(EXEEXT)
 
 if HAVE_TESTS
 check_LTLIBRARIES += tests/libsupport.la
-tests_threads_check_threads_LDFLAGS = -pthread
+tests_check_suites_SOURCES = tests/suites.c $(SUITES) tests/arguments/stage.c tests/arguments/stage.h
+tests_check_suites_CPPFLAGS = $(AM_CPPFLAGS) -I$(builddir)
+tests_check_suites_LDFLAGS = -pthread
 tests_threads_check_team_CPPFLAGS = -D_GNU_SOURCE $(AM_CPPFLAGS)
 tests_threads_check_team_LDADD = $(LDADD) -ldl
 tests_libsupport_la_SOURCES = \
@@ -231,20 +235,16 @@ tests_libsupport_la_SOURCES = \
 	tests/independent/point-sweep.c tests/independent/point-sweep.h \
 	tests/independent/sweep-nystrom.c tests/independent/sweep-nystrom.h \
 	tests/independent/sweep-row.c tests/independent/sweep-row.h
-check_PROGRAMS += $(SUITES)
+check_PROGRAMS += tests/check-suites $(REPLACING)
 # The longest one begins first.
-TESTS += $(OUTSIDE) $(SUITES)
+TESTS += $(OUTSIDE) $(SUITES) $(REPLACING)
 else
 check-local:
 	@echo "make check needs Check and MPFR; configure did not find them" >&2; exit 1
 endif
 
 # Calls of all public functions, made of their prototypes.
-tests_arguments_check_arguments_SOURCES = tests/arguments/check-arguments.c \
-	tests/arguments/stage.c tests/arguments/stage.h
-tests_arguments_check_arguments_CPPFLAGS = $(AM_CPPFLAGS) -I$(builddir)
-tests/arguments/check_arguments-check-arguments.$(OBJEXT): \
-	tests/arguments/calls.inc
+tests/arguments/check_suites-check-arguments.$(OBJEXT): tests/arguments/calls.inc
 tests/arguments/calls.inc: $(srcdir)/tests/arguments/calls.awk $(hr2dinclude_HEADERS)
 	@$(MKDIR_P) tests/arguments
 	@echo '#include <hr2d/hr2d.h>' | $(CC) -E -P $(PUBLIC_CPPFLAGS) -x c - | \
@@ -323,33 +323,36 @@ check-long:
 
 # Only Check programs, without fork, and without most suites that take 20 s and more under valgrind,
 # which compute numbers and run other methods.  These run under the sanitizers.
-TOO_LONG = tests/bounds/check-bounds-geometry tests/bounds/check-bounds-l1 \
-	tests/faults/check-faults tests/faults/check-faults-accuracy \
-	tests/faults/check-faults-callbacks tests/faults/check-polls tests/faults/check-share-faults \
-	tests/faults/check-scene-progress \
-	tests/hard/check-hard-oracles tests/hard/check-hard-refine tests/hard/check-hard-scenes \
-	tests/hard/check-hard-solve tests/paper/check-theorem tests/unit/accuracy/check-budgets \
-	tests/unit/estimate/check-cluster-residuals tests/unit/accuracy/check-cracks \
-	tests/unit/accuracy/check-dark tests/unit/estimate/check-error-indicators \
-	tests/unit/accuracy/check-importance tests/unit/accuracy/check-known-radiosities \
-	tests/unit/accuracy/check-random-accuracy tests/unit/accuracy/check-random-periods \
-	tests/unit/estimate/check-roundings tests/unit/accuracy/check-shadow-edges \
-	tests/unit/accuracy/check-shares tests/unit/accuracy/check-short-patches \
-	tests/unit/estimate/check-single-blocks tests/unit/accuracy/check-target-calls tests/unit/blocks/check-blocks \
-	tests/unit/blocks/check-directions tests/unit/clusters/check-clusters \
-	tests/unit/clusters/check-far-exchange tests/unit/field/check-field \
-	tests/unit/field/check-field-grid tests/unit/field/check-past-ends tests/unit/formats/check-vs2 \
-	tests/unit/geometry/check-exchange-area tests/unit/links/check-store tests/unit/oracle/check-l1 \
-	tests/unit/refine/check-image-elements tests/unit/refine/check-occlusion \
-	tests/unit/refine/check-rows tests/unit/refine/check-validate tests/unit/repair/check-crossings \
-	tests/unit/scene/check-effects tests/unit/solution/check-emissivity \
-	tests/unit/solution/check-heat-bands tests/unit/solution/check-heat-images \
-	tests/unit/solution/check-heat-links tests/unit/solution/check-irradiance-points \
-	tests/unit/solution/check-points tests/unit/solve/check-closure tests/unit/solve/check-mirrors \
-	tests/unit/solve/check-order tests/unit/solve/check-periods tests/unit/solve/check-row-sums \
-	tests/unit/solve/check-sky tests/unit/solve/check-slices tests/unit/solve/check-solve \
-	tests/unit/solve/check-sun tests/unit/mesh/check-events \
-	tests/unit/visibility/check-exchange-rows tests/unit/visibility/check-period-rows
+TOO_LONG = tests/bounds/check-bounds-geometry.c tests/bounds/check-bounds-l1.c \
+	tests/faults/check-faults.c tests/faults/check-faults-accuracy.c \
+	tests/faults/check-faults-callbacks.c tests/faults/check-polls.c \
+	tests/faults/check-share-faults.c tests/faults/check-scene-progress.c \
+	tests/hard/check-hard-oracles.c tests/hard/check-hard-refine.c tests/hard/check-hard-scenes.c \
+	tests/hard/check-hard-solve.c tests/paper/check-theorem.c tests/unit/accuracy/check-budgets.c \
+	tests/unit/estimate/check-cluster-residuals.c tests/unit/accuracy/check-cracks.c \
+	tests/unit/accuracy/check-dark.c tests/unit/estimate/check-error-indicators.c \
+	tests/unit/accuracy/check-importance.c tests/unit/accuracy/check-known-radiosities.c \
+	tests/unit/accuracy/check-random-accuracy.c tests/unit/accuracy/check-random-periods.c \
+	tests/unit/estimate/check-roundings.c tests/unit/accuracy/check-shadow-edges.c \
+	tests/unit/accuracy/check-shares.c tests/unit/accuracy/check-short-patches.c \
+	tests/unit/estimate/check-single-blocks.c tests/unit/accuracy/check-target-calls.c \
+	tests/unit/blocks/check-blocks.c tests/unit/blocks/check-directions.c \
+	tests/unit/clusters/check-clusters.c tests/unit/clusters/check-far-exchange.c \
+	tests/unit/field/check-field.c tests/unit/field/check-field-grid.c \
+	tests/unit/field/check-past-ends.c tests/unit/formats/check-vs2.c \
+	tests/unit/geometry/check-exchange-area.c tests/unit/links/check-store.c \
+	tests/unit/oracle/check-l1.c tests/unit/refine/check-image-elements.c \
+	tests/unit/refine/check-occlusion.c tests/unit/refine/check-rows.c \
+	tests/unit/refine/check-validate.c tests/unit/repair/check-crossings.c \
+	tests/unit/scene/check-effects.c tests/unit/solution/check-emissivity.c \
+	tests/unit/solution/check-heat-bands.c tests/unit/solution/check-heat-images.c \
+	tests/unit/solution/check-heat-links.c tests/unit/solution/check-irradiance-points.c \
+	tests/unit/solution/check-points.c tests/unit/solve/check-closure.c \
+	tests/unit/solve/check-mirrors.c tests/unit/solve/check-order.c \
+	tests/unit/solve/check-periods.c tests/unit/solve/check-row-sums.c \
+	tests/unit/solve/check-sky.c tests/unit/solve/check-slices.c tests/unit/solve/check-solve.c \
+	tests/unit/solve/check-sun.c tests/unit/mesh/check-events.c \
+	tests/unit/visibility/check-exchange-rows.c tests/unit/visibility/check-period-rows.c
 # Begins first, for a suite that begins last runs alone.
 TAKES_LONGEST = tests/threads/check-team
 MEMCHECK = $(VALGRIND) --quiet --error-exitcode=9 --leak-check=full \
@@ -357,8 +360,8 @@ MEMCHECK = $(VALGRIND) --quiet --error-exitcode=9 --leak-check=full \
 check-valgrind:
 	CK_FORK=no CK_DEFAULT_TIMEOUT=0 \
 	HR2D_TEST_MULTIPLIER="$${HR2D_TEST_MULTIPLIER-0.01}" \
-	$(MAKE) check TESTS='$(TAKES_LONGEST) $(filter-out $(TAKES_LONGEST) $(TOO_LONG),$(SUITES))' \
-	LOG_COMPILER='$(MEMCHECK)'
+	$(MAKE) check LOG_COMPILER='$(MEMCHECK)' SUITE_RUNNER='$(MEMCHECK)' \
+	TESTS='$(TAKES_LONGEST) $(filter-out $(TAKES_LONGEST) $(TOO_LONG),$(SUITES) $(REPLACING))'
 
 # Scripts about texts, names and digits, in which sanitizers have nothing to find.
 PAPERWORK = tests/docs/check-docs.sh tests/program/check-help.sh tests/program/check-digits.sh \
@@ -376,12 +379,12 @@ check-matrix:
 
 # The table of doc/hard-cases.md, measured by the suites of hard cases.
 HARD = $(filter tests/hard/%,$(SUITES))
-hard-cases: $(HARD)
+hard-cases: tests/check-suites$(EXEEXT)
 	@rm -f hard-cases.md
 	@for suite in $(HARD); do \
 	  $(AM_TESTS_ENVIRONMENT) \
 	  HR2D_TEST_MULTIPLIER=1 HR2D_HARD_CASES='$(abs_top_builddir)/hard-cases.md' CK_FORK=no \
-	    ./$$suite >&2 || exit; \
+	    tests/check-suites$(EXEEXT) $$suite >&2 || exit; \
 	done
 	@cat hard-cases.md
 .PHONY: hard-cases

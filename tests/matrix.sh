@@ -5,7 +5,7 @@
 # says what each setting is for and what was measured.  The last line is the number of checks that
 # passed and failed.
 #
-# Environment: HR2D_TEST_MULTIPLIER, 0.1 unless set; HR2D_MATRIX_TESTS, the tests to run instead
+# Environment: HR2D_TEST_MULTIPLIER, 0.1 unless set; HR2D_MATRIX_TESTS, the suites to run instead
 # of those of the setting.
 set -u
 source=$(cd "$(dirname "$0")/.." && pwd)
@@ -17,12 +17,12 @@ export HR2D_TEST_MULTIPLIER="${HR2D_TEST_MULTIPLIER-0.1}"
 
 # The suites in which the library or the application has several threads, the longest one first;
 # check-team has a pthread_create() of its own, which the sanitizer cannot do without.
-threaded="tests/unit/clusters/check-clusters \
-tests/threads/check-threads tests/unit/refine/check-refine \
-tests/unit/refine/check-rows tests/unit/solve/check-slices \
-tests/unit/solve/check-order tests/unit/solve/check-solve \
-tests/unit/visibility/check-exchange-matrix tests/unit/visibility/check-exchange-rows \
-tests/unit/visibility/check-back-visibility tests/unit/blocks/check-blocks"
+threaded="tests/unit/clusters/check-clusters.c \
+tests/threads/check-threads.c tests/unit/refine/check-refine.c \
+tests/unit/refine/check-rows.c tests/unit/solve/check-slices.c \
+tests/unit/solve/check-order.c tests/unit/solve/check-solve.c \
+tests/unit/visibility/check-exchange-matrix.c tests/unit/visibility/check-exchange-rows.c \
+tests/unit/visibility/check-back-visibility.c tests/unit/blocks/check-blocks.c"
 
 # build SETTING CONFIGURE-ARGUMENT...
 build() {
@@ -38,13 +38,13 @@ configured() {
 }
 
 # run SETTING TESTS: all of them if there are none.  The program of the library is not built for
-# tests that are named.
+# suites that are named.
 run() {
   folder=matrix/$1 bad=0 goal=check
   tests=${HR2D_MATRIX_TESTS:-$2}
   [ -z "$tests" ] || goal=check-TESTS
   make -C "$folder" -s -j"$jobs" $goal \
-    ${tests:+TESTS="$tests" check_PROGRAMS="$tests"} >"$folder/check.log" 2>&1 ||
+    ${tests:+TESTS="$tests" check_PROGRAMS=tests/check-suites} >"$folder/check.log" 2>&1 ||
     bad=1
   sh "$source/tests/summary.sh" "$folder" >"$folder/summary" || bad=1
   [ $bad = 0 ] || cat "$folder/tests/test-suite.log" "$folder/check.log"

@@ -53,13 +53,6 @@ START_TEST(test_call) {
 }
 END_TEST
 
-static void add_tests(Suite *suite) {
-  TCase *tcase = tcase_create("calls");
-  if (!getenv("CK_DEFAULT_TIMEOUT")) tcase_set_timeout(tcase, 600);
-  tcase_add_loop_test(tcase, test_call, 0, sizeof calls / sizeof *calls);
-  suite_add_tcase(suite, tcase);
-}
-
-int main(void) {
-  return test_run("arguments", add_tests);
+TEST_SUITE("arguments") {
+  REPEAT_TESTS(sizeof calls / sizeof *calls, "calls", test_call);
 }

@@ -204,6 +204,6 @@ START_TEST(solutions) {
 }
 END_TEST
 
-TEST_SUITE("faults of malloc") {
+TEST_PROGRAM("faults of malloc") {
   ADD_TESTS("malloc", fits, scenes, solutions);
 }

@@ -3,6 +3,7 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "support/settings.h"
 
@@ -24,9 +25,32 @@ void test_add(Suite *suite, const char *group, int times, const TTest *const *te
   suite_add_tcase(suite, tcase);
 }
 
-int test_run(const char *name, void (*add_tests)(Suite *suite)) {
-  Suite *suite = suite_create(name);
-  add_tests(suite);
+static test_suite *listed;
+
+void test_list(test_suite *suite) {
+  suite->next = listed;
+  listed = suite;
+}
+
+/* The last name of a path, and its length without an extension. */
+static const char *last_name(const char *path, size_t *length) {
+  const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
+  *length = strcspn(name, ".");
+  return name;
+}
+
+const test_suite *test_find(const char *file) {
+  size_t length, other;
+  const char *name = last_name(file, &length);
+  for (const test_suite *suite = listed; suite; suite = suite->next)
+    if (strncmp(last_name(suite->file, &other), name, length) == 0 && other == length)
+      return suite;
+  return NULL;
+}
+
+int test_run(const test_suite *tests) {
+  Suite *suite = suite_create(tests->name);
+  tests->add_tests(suite);
   printf("seed %lu\n", test_seed());
   fflush(stdout);
   SRunner *runner = srunner_create(suite);

@@ -121,6 +121,6 @@ START_TEST(fewer_threads_give_the_same_bits) {
 }
 END_TEST
 
-TEST_SUITE("team") {
+TEST_PROGRAM("team") {
   ADD_TESTS("threads", every_task_is_done_once, fewer_threads_give_the_same_bits);
 }
