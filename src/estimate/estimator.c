@@ -189,7 +189,7 @@ static hr2d_status reserve(hr2di_estimator *e, const hr2d_allocator *alloc) {
   e->values = t->hierarchy->scene->patches * t->bands;
   e->space =
       hr2di_alloc_zero(alloc,
-                       4 * field + 4 * e->values + 2 * t->elements * t->bands + 3 * rows +
+                       4 * field + 4 * e->values + 2 * t->elements * t->bands + 4 * rows +
                            14 * t->bands + (cuts ? field + 4 * e->values + 4 * t->bands : 0),
                        sizeof *e->space);
   e->exponent_of = hr2di_alloc(alloc, t->bands, sizeof *e->exponent_of);
@@ -205,7 +205,8 @@ static hr2d_status reserve(hr2di_estimator *e, const hr2d_allocator *alloc) {
   e->own = next + t->elements * t->bands;
   e->off[0] = e->own + t->elements * t->bands;
   e->off[1] = e->off[0] + rows;
-  next = e->off[1] + rows;
+  e->level = e->off[1] + rows;
+  next = e->level + rows;
   for (int h = 0; h < 2; h++, next += 4 * t->bands) {
     e->largest[h] = next;
     e->point[h] = next + t->bands;

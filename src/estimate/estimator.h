@@ -44,6 +44,7 @@ typedef struct hr2di_estimator {
   double *max;         /* elements × bands: |field| at most */
   double *own;        /* likewise: stands for the own |B| of the element in the rounding of H */
   double *off[2];     /* leaves × bands: rounding error of H, as used in B and as reported */
+  double *level;      /* likewise: |c| of balanced components that are not closed, else 0 */
   double *floor;      /* 2 × bands, of B and of H: no average counts as less */
   double *safe;       /* likewise: the worst error of an average without signs, */
   double *scatter;    /* and the size that it has with random ones */

@@ -69,8 +69,10 @@ void hr2di_residual_set(hr2di_estimator *e) {
   e->level_uncertainty = hr2di_balance_doubt(&eq->balance, t);
   for (size_t k = 0; k < eq->field; k++) {
     const size_t leaf = k / t->width, m = k % t->width;
-    const int exact = m < t->bands && hr2di_balance_closed(&eq->balance, leaf);
-    e->rest[k] = e->kept[k] - (exact ? hr2di_balance_at(&eq->balance, t, leaf, m) : 0);
+    const double level = m < t->bands ? hr2di_balance_at(&eq->balance, t, leaf, m) : 0;
+    const int exact = hr2di_balance_closed(&eq->balance, leaf);
+    e->rest[k] = e->kept[k] - (exact ? level : 0);
+    if (m < t->bands) e->level[leaf * t->bands + m] = exact ? 0 : fabs(level);
     e->error[k] = eq->irradiance[k] = 0;
   }
   eq->background = 0;

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* (I − ρK)⁻¹ = Σ(ρK)^k maps nothing positive to anything negative, so it carries a bound of
    roundings as it does light.  Roundings of the level of a closed component are no more than
-   that.
+   that.  In a component from which little escapes B = c + z has those of c, also on a patch
+   that nothing lights.
 
    Closure d makes K1 + d the exact row sum, and the form factor s of the background is
    1 − K1 − d: what is off in K is off in these, too, with the other sign.  With z = B − c in a
@@ -203,8 +204,17 @@ static void add_points(hr2di_estimator *e, size_t b) {
     /* Where light from outside is absorbed at once, nothing is rounded. */
     if (e->largest[0][b] > 0)
       e->stray[0][b] = fmax(e->stray[0][b], hr2di_estimator_rho(e, leaf, b) * h);
-    eq->irradiance[leaf * t->width + b] += e->off[1][leaf * t->bands + b];
+    eq->irradiance[leaf * t->width + b] +=
+        e->off[1][leaf * t->bands + b] +
+        HR2DI_ESTIMATOR_ROUNDING * e->level[leaf * t->bands + b];
   }
+}
+
+/* Of B on a leaf: ρ times that of H, and its own, as B or as c + z. */
+static double rounding_of_b(const hr2di_estimator *e, size_t leaf, size_t band) {
+  const size_t at = leaf * e->eq.transport.bands + band;
+  const double terms = hr2di_estimator_max(e, e->rest, leaf, band) + e->level[at];
+  return hr2di_estimator_rho(e, leaf, band) * e->off[0][at] + HR2DI_ESTIMATOR_ROUNDING * terms;
 }
 
 hr2d_status hr2di_rounding_bound(hr2di_estimator *e, int reflects) {
@@ -218,10 +228,7 @@ hr2d_status hr2di_rounding_bound(hr2di_estimator *e, int reflects) {
   hr2d_status status = hr2di_coordinates_add(t, &levels, e->off);
   for (size_t k = 0; k < eq->field && !status; k++) {
     const size_t leaf = k / t->width, m = k % t->width;
-    const double b =
-        m < t->bands ? HR2DI_ESTIMATOR_ROUNDING * hr2di_estimator_max(e, e->rest, leaf, m) : 0;
-    eq->source[k] =
-        m < t->bands ? hr2di_estimator_rho(e, leaf, m) * e->off[0][leaf * t->bands + m] + b : 0;
+    eq->source[k] = m < t->bands ? rounding_of_b(e, leaf, m) : 0;
     eq->radiosity[k] = eq->source[k]; /* where nothing reflects */
   }
   if (!status && reflects) status = hr2di_estimator_solve(e, 1e-3);

@@ -203,7 +203,43 @@ START_TEST(a_floor_under_a_plate) {
 }
 END_TEST
 
+/* A room of black walls with a slit and a floor of two pieces, of which one shines: the other
+   one sees nothing but black, and B = H = 0 on it.  As little escapes, both are differences
+   from the level of the room, and have its roundings; a bound that forgot them was 100 times
+   too low. */
+START_TEST(a_dark_piece_of_floor) {
+  const size_t count = test_rounds(200, 40);
+  randoms r = randoms_stream(test_seed(), 4);
+  size_t rounded = 0;
+  for (size_t k = 0; k < count; k++) {
+    const double height = random_power(&r, -1, 0), end = random_between(&r, 0.3, 0.8);
+    const double slit = random_power(&r, -6, -2), floor = random_power(&r, -12, -6);
+    const hr2d_point corner[] = {{0, 0},      {end, 0},       {1, 0},
+                                 {1, height}, {slit, height}, {0, height}};
+    hr2d_scene *scene = test_new_scene(NULL);
+    add(scene, (hr2d_segment){corner[1], corner[2]}, 0, random_between(&r, 0.1, 0.9));
+    add(scene, (hr2d_segment){corner[0], corner[1]}, 1, random_between(&r, 0.1, 0.9));
+    add(scene, (hr2d_segment){corner[2], corner[3]}, 0, 0);
+    add(scene, (hr2d_segment){corner[3], corner[4]}, 0, 0);
+    add(scene, (hr2d_segment){corner[5], corner[0]}, 0, 0);
+    test_commit(scene);
+    hr2d_account a;
+    hr2d_solution *solution = solve(scene, random_power(&r, -10, -2), floor, &a);
+    const double b = hr2d_solution_average(solution, 0, 0);
+    rounded += b != 0;
+    ck_assert_double_lt(a.average.bound, 1);
+    ck_assert_double_le(fabs(b), a.average.bound / (1 - a.average.bound) * floor);
+    ck_assert_double_le(fabs(hr2d_solution_irradiance(solution, 0, 0)),
+                        stated(scene, solution, &a, floor));
+    hr2d_solution_destroy(solution);
+    hr2d_scene_destroy(scene);
+  }
+  ck_assert_uint_gt(rounded, count / 10);
+}
+END_TEST
+
 TEST_SUITE("roundings") {
+  ADD_TESTS("a balance", a_dark_piece_of_floor);
   ADD_TESTS("irradiance", a_lamp_before_a_dark_wall, a_lamp_in_a_black_room_far_away,
             a_floor_under_a_plate);
 }
