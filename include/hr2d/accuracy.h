@@ -125,11 +125,18 @@ typedef struct hr2d_target {
                                   that are alike */
   hr2d_share *share;         /**< NULL, or one of several shares that solve together:
                                   unstable interface, see share.h */
+  int points;                /**< not 0: errors at points are measured, too. They are gathered
+                                  for, which may take several times as long as the rest of the
+                                  account. #HR2D_NORM_SUP implies it */
 } hr2d_target;
 
-/** The defaults: 1e-6 in averages, no budget, all patches, one thread, no callback. */
+/** The defaults: 1e-6 in averages, no budget, all patches, one thread, no callback, no errors
+    at points. */
 #define HR2D_TARGET_INIT                                                                       \
-  { sizeof(hr2d_target), 0, HR2D_NORM_AVERAGE, 0, NULL, 0, 0, 0, 0, 0, NULL, NULL, 0, 0, NULL }
+  {                                                                                            \
+    sizeof(hr2d_target), 0, HR2D_NORM_AVERAGE, 0, NULL, 0, 0, 0, 0, 0, NULL, NULL, 0, 0, NULL, \
+        0                                                                                      \
+  }
 
 /**
  * Does what #HR2D_TARGET_INIT does, for languages without macros: sets all bytes to 0, and
@@ -139,16 +146,17 @@ typedef struct hr2d_target {
  */
 HR2D_API void hr2d_target_init(hr2d_target *target, size_t size);
 
-/** The result and the work of hr2d_solve_to(). */
+/** The result and the work of hr2d_solve_to(). Errors at points that hr2d_target::points does
+    not ask for are not measured: NaN. */
 typedef struct hr2d_account {
   hr2d_error average;    /**< error of the solution in #HR2D_NORM_AVERAGE; with `important`, of
                               these patches */
   hr2d_error sup;        /**< error in #HR2D_NORM_SUP of hr2d_solution_gather(); with
-                              `important`, at points of these patches */
+                              `important`, at points of these patches. NaN without `points` */
   hr2d_error irradiance; /**< error of hr2d_solution_irradiance(), in the norm of `average` with
                               H in the place of B */
   hr2d_error irradiance_sup;   /**< error of hr2d_solution_gather_irradiance(), in the norm of
-                                    `sup` with H in the place of B */
+                                    `sup` with H in the place of B. NaN without `points` */
   unsigned order;              /**< p of the solution */
   unsigned solves;             /**< solutions that were made, this one included */
   uint64_t elements;           /**< N */
@@ -258,14 +266,15 @@ HR2D_API hr2d_status hr2d_solution_error(const hr2d_solution *solution, const hr
  * Measures all errors of a solution of any oracle, policy and order, as hr2d_solution_error()
  * does, those of H as well.
  *
- * Errors at points are sampled between the ends of the leaves of the solution and of the
- * reference, which end where radiosity jumps or bends, and at the borders of sunlight.
+ * Errors at points, if `how` asks for them, are sampled between the ends of the leaves of the
+ * solution and of the reference, which end where radiosity jumps or bends, and at the borders
+ * of sunlight.
  * @param solution  its scene must still exist
  * @param how       as for hr2d_solution_error()
  * @param account   receives the errors, at points those of hr2d_solution_at() and
- *                  hr2d_solution_irradiance_at(); `order`, `elements`, `leaves` and `links` of
- *                  the solution; and the time that this took. The rest is 0, but for `solves`,
- *                  which is 1. Unchanged on failure
+ *                  hr2d_solution_irradiance_at(), NaN without `points`; `order`, `elements`,
+ * `leaves` and `links` of the solution; and the time that this took. The rest is 0, but for
+ * `solves`, which is 1. Unchanged on failure
  * @return as hr2d_solution_error()
  */
 HR2D_API hr2d_status hr2d_solution_account(const hr2d_solution *solution,

@@ -88,9 +88,10 @@ typedef struct hr2d_field_options {
   const double *patch_error; /**< bounds of |B_h − B|, patches × bands, patch by patch, in the
                                   unit of E; only read; NULL: none are known */
   const hr2d_account *account; /**< that of hr2d_solve_to() or hr2d_solution_account() of the
-                                    solution: hr2d_field_values::error, if it is wanted and
-                                    without `patch_error`, is then measured, in the time of
-                                    p + 3 gathers for each leaf. Only read; NULL: none */
+                                    solution, with hr2d_target::points:
+                                    hr2d_field_values::error, if it is wanted and without
+                                    `patch_error`, is then measured, in the time of p + 3
+                                    gathers for each leaf. Only read; NULL: none */
 } hr2d_field_options;
 
 /** The defaults: one thread, no callback, no errors. */

@@ -196,7 +196,7 @@ static hr2d_status predict(const hr2d_scene *scene, const hr2d_target *target,
                                                       : HR2DI_CHOICE_PREDICT_CALLS;
     p->seconds = calls * coarse.seconds + c.make +
                  (reflects ? HR2DI_CHOICE_PREDICT_REST * gathers : 0) +
-                 (reflects && !target->no_error ? points : 0);
+                 (reflects && target->points && !target->no_error ? points : 0);
     set_range(p);
   }
   hr2di_graded_clear(&a);

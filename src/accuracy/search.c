@@ -98,16 +98,17 @@ static void add_times(hr2d_account *sum, const hr2di_graded *answer) {
   sum->solves += answer->solution != NULL;
 }
 
-/* Notes the errors of the best one. */
+/* Notes the errors of the best one, and of those at points that they are not measured. */
 static void note_errors(hr2di_search *s, const hr2di_error_pair *errors) {
   hr2d_account *a = &s->account;
   s->error = worst_of(errors, s->target.norm);
   s->cut_off = errors->cut_off[s->target.norm == HR2D_NORM_SUP];
   s->rounding = errors->rounding[s->target.norm == HR2D_NORM_SUP];
+  const hr2d_error none = {NAN, NAN};
   a->average = errors->average;
-  a->sup = errors->sup;
+  a->sup = s->given.points ? errors->sup : none;
   a->irradiance = errors->irradiance;
-  a->irradiance_sup = errors->irradiance_sup;
+  a->irradiance_sup = s->given.points ? errors->irradiance_sup : none;
 }
 
 /* Keeps a graded solve, with its errors, as the best one. */

@@ -84,48 +84,59 @@ static hr2d_status listen(void *ctx, const hr2d_progress *progress) {
   return l->progress_status;
 }
 
-/* If the budgets do not suffice for a better comparison, the last one stands. */
-static hr2d_status measure(const hr2d_solution *solution, const hr2d_target *how, wanted b,
+/* If the budgets do not suffice for a better comparison, the last one stands.  Changes the
+   target. */
+static hr2d_status measure(const hr2d_solution *solution, hr2d_target *target, wanted b,
                            wanted h) {
-  const hr2d_scene *scene = solution->hierarchy->scene;
-  hr2d_target target;
-  hr2d_status status = hr2di_target_init(&target, scene, how, FINEST);
-  if (status) return status;
-  listener l = {.progress = target.progress, .ctx = target.progress_ctx};
-  target.no_error = 0;
-  target.progress = listen;
-  target.progress_ctx = &l;
-  const double finest = fmax(target.error, FINEST);
+  listener l = {.progress = target->progress, .ctx = target->progress_ctx};
+  target->no_error = 0;
+  target->progress = listen;
+  target->progress_ctx = &l;
+  const double finest = fmax(target->error, FINEST);
+  hr2d_status status = HR2D_OK;
   int enough = 0, compared = 0;
   for (double error = FIRST; !status && !enough; error *= 1e-3) {
-    target.error = fmax(error, finest);
-    status = compare(solution, &target, b, h, &enough);
+    target->error = fmax(error, finest);
+    status = compare(solution, target, b, h, &enough);
     if (status == HR2D_EACCURACY && compared && !l.progress_status) status = HR2D_OK;
     compared = 1;
-    enough = enough || target.error <= finest;
+    enough = enough || target->error <= finest;
   }
-  hr2di_target_clear(&target, scene);
   return status;
 }
 
 hr2d_status hr2d_solution_error(const hr2d_solution *solution, const hr2d_target *how,
                                 hr2d_error *average, hr2d_error *sup) {
+  hr2d_target target;
   if (!solution) return HR2D_EINVAL;
-  return measure(solution, how, (wanted){average, sup}, (wanted){NULL, NULL});
+  const hr2d_scene *scene = solution->hierarchy->scene;
+  hr2d_status status = hr2di_target_init(&target, scene, how, FINEST);
+  target.points = sup != NULL;
+  if (!status)
+    status = measure(solution, &target, (wanted){average, sup}, (wanted){NULL, NULL});
+  hr2di_target_clear(&target, scene);
+  return status;
 }
 
 hr2d_status hr2d_solution_account(const hr2d_solution *solution, const hr2d_target *how,
                                   hr2d_account *account) {
+  hr2d_target target;
   if (!solution || !account) return HR2D_EINVAL;
+  const hr2d_scene *scene = solution->hierarchy->scene;
   const double start = hr2di_clock_now();
   const hr2d_refine_counts counts = hr2d_linkset_counts(solution->links);
   hr2d_account a = {.order = (unsigned)solution->order,
                     .solves = 1,
                     .elements = counts.elements,
                     .leaves = counts.leaves,
-                    .links = counts.links};
-  const hr2d_status status = measure(solution, how, (wanted){&a.average, &a.sup},
-                                     (wanted){&a.irradiance, &a.irradiance_sup});
+                    .links = counts.links,
+                    .sup = {NAN, NAN},
+                    .irradiance_sup = {NAN, NAN}};
+  hr2d_status status = hr2di_target_init(&target, scene, how, FINEST);
+  const wanted b = {&a.average, target.points ? &a.sup : NULL},
+               h = {&a.irradiance, target.points ? &a.irradiance_sup : NULL};
+  if (!status) status = measure(solution, &target, b, h);
+  hr2di_target_clear(&target, scene);
   a.error_seconds = a.seconds = hr2di_clock_now() - start;
   if (!status) *account = a;
   return status;

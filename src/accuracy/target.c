@@ -9,6 +9,7 @@
 #include "base/share.h"
 #include "base/sized-struct.h"
 #include "base/sort.h"
+#include "base/team.h"
 #include "scene/scene-impl.h"
 
 static hr2d_status check(const hr2d_scene *scene, const hr2d_target *t) {
@@ -56,6 +57,8 @@ hr2d_status hr2di_target_init(hr2d_target *used, const hr2d_scene *scene,
   }
   if (!(used->error > 0)) used->error = used->error < 0 ? 0 : default_error;
   if (!(used->floor > 0)) used->floor = HR2D_FLOOR;
+  if (used->norm == HR2D_NORM_SUP) used->points = 1;
+  used->threads = (unsigned)hr2di_team_threads(used->threads);
   hr2di_scene_choose_progress(scene, &used->progress, &used->progress_ctx);
   return sort_patches(used, scene);
 }

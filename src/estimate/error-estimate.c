@@ -135,12 +135,13 @@ static hr2d_status measure_averages(hr2di_estimator *e, hr2di_error_pair *errors
   return status;
 }
 
-/* Errors at points, and bounds. */
+/* Bounds, and errors at points. */
 static hr2d_status measure_rest(hr2di_estimator *e, hr2di_error_pair *errors) {
   hr2di_equation *eq = &e->eq;
   const int reflects = reflects_light(e);
-  hr2d_status status = hr2di_shadow_residuals(e);
-  if (!status) status = hr2di_gap_residuals(e);
+  hr2d_status status = HR2D_OK;
+  if (e->target->points) status = hr2di_shadow_residuals(e);
+  if (!status && e->target->points) status = hr2di_gap_residuals(e);
   if (!status && reflects) status = hr2di_unsigned_error(e);
   if (status) return status;
   status = hr2di_rounding_bound(e, reflects);
@@ -169,6 +170,7 @@ static hr2d_status measure_rest(hr2di_estimator *e, hr2di_error_pair *errors) {
         bounded(hypot(likely, BLIND_LIKELY * blind),
                 worst_average(e, h, average_max) + e->margin * by_chance(e, seen, 1, h) +
                     signless(e, h) + level + BLIND * blind);
+    if (!e->target->points) continue;
     *sup[h] = bounded(hypot(fmax(worst_point(e, h, all), doubt), BLIND_LIKELY * blind),
                       worst_point(e, h, upper) + level + BLIND * blind);
   }

@@ -10,8 +10,8 @@
 
 typedef struct hr2di_error_pair {
   hr2d_error average; /* of the worst patch, or of the one that importance is asked for */
-  hr2d_error sup;
-  hr2d_error irradiance, irradiance_sup; /* of H */
+  hr2d_error sup;     /* infinite unless the target asks for points, */
+  hr2d_error irradiance, irradiance_sup; /* and so is the one of H */
   double cut_off[2];  /* what of estimates of averages and at points is of images of a period
                          that are cut off */
   double rounding[2]; /* what of the bounds of averages and at points is rounding */

@@ -120,7 +120,8 @@ static hr2d_status run_check(hr2di_estimator *e, int check, const results *r) {
   hr2d_status status = check == HR2DI_CHECK_ALL ? set_max(e, r->seen) : set_tail(e, check);
   if (!status && scene->effect[HR2D_EFFECT_INTERREFLECTION].on) {
     status = reflect(e, average);
-    if (!status) find_indirect(e, r->indirect + (size_t)check * t->leaves * t->bands);
+    if (!status && e->target->points)
+      find_indirect(e, r->indirect + (size_t)check * t->leaves * t->bands);
   }
   if (!status) status = hr2di_transport_status(t);
   if (!status) hr2di_estimator_averages(e, e->tail, average + e->values);
@@ -227,7 +228,7 @@ hr2d_status hr2di_period_residuals(hr2di_estimator *e) {
   results r;
   if (!e->tail) return HR2D_OK;
   hr2d_status status = reserve(e, &r);
-  if (!status) status = view_from_leaves(e, &r);
+  if (!status && e->target->points) status = view_from_leaves(e, &r);
   const int few = t->hierarchy->scene->symmetry.copies <= HR2DI_FEW_COPIES;
   for (int check = 0; check < CHECKS + few && !status; check++)
     status = run_check(e, check, &r);

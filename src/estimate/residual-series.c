@@ -168,7 +168,7 @@ static void saturate_kinks(hr2di_estimator *e) {
 hr2d_status hr2di_residual_solve(hr2di_estimator *e) {
   hr2di_equation *eq = &e->eq;
   hr2d_status status = hr2di_contacts_init(&e->contacts, &eq->transport);
-  if (!status)
+  if (!status && e->target->points)
     status = hr2di_contacts_gather(&e->contacts, eq, e->coarse, e->residual, e->kept);
   if (!status)
     status = hr2di_contacts_saturate(&e->contacts, &eq->transport, e->coarse->order,
@@ -217,13 +217,9 @@ static void add_all_nearby(hr2di_estimator *e) {
   }
 }
 
-/* Errors of averages and points, from B − B_h and its irradiance. */
-hr2d_status hr2di_residual_measure(hr2di_estimator *e) {
-  hr2di_equation *eq = &e->eq;
+static hr2d_status measure_points(hr2di_estimator *e) {
+  const hr2di_equation *eq = &e->eq;
   const hr2di_transport *t = &eq->transport;
-  hr2di_estimator_averages(e, eq->irradiance, e->average[0]);
-  for (size_t k = 0; k < e->values; k++) e->average[1][k] += e->average[0][k];
-  hr2di_estimator_averages(e, e->error, e->average[0]);
   for (size_t b = 0; b < t->bands; b++) {
     e->point[0][b] = e->point[1][b] = 0;
     e->narrow[0][b] = e->narrow[1][b] = 0;
@@ -238,4 +234,12 @@ hr2d_status hr2di_residual_measure(hr2di_estimator *e) {
   if (!t->links->share) return HR2D_OK;
   return hr2di_share_combine(t->links->share, hr2di_transport_status(t), HR2D_COMBINE_MOST,
                              e->point[1], t->bands);
+}
+
+hr2d_status hr2di_residual_measure(hr2di_estimator *e) {
+  const hr2di_equation *eq = &e->eq;
+  hr2di_estimator_averages(e, eq->irradiance, e->average[0]);
+  for (size_t k = 0; k < e->values; k++) e->average[1][k] += e->average[0][k];
+  hr2di_estimator_averages(e, e->error, e->average[0]);
+  return e->target->points ? measure_points(e) : HR2D_OK;
 }

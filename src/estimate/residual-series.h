@@ -14,8 +14,8 @@ hr2d_status hr2di_residual_solve(hr2di_estimator *e);
 /* field = ρK field, through eq->irradiance. */
 void hr2di_residual_reflect(hr2di_equation *eq, double *field);
 
-/* Sets the errors of averages and at points from e->error.  HR2D_OK or the status of a share.
- */
+/* Sets the errors of averages from e->error, and those at points if the target asks for them.
+   HR2D_OK or the status of a share. */
 hr2d_status hr2di_residual_measure(hr2di_estimator *e);
 
 #endif

@@ -192,22 +192,28 @@ static double slivers(const hr2di_estimator *e, size_t b) {
   return sliver * fmax(e->largest[0][b], hr2di_estimator_sky(e, b));
 }
 
-/* Roundings at points of a band, with those of H in eq->irradiance, to which those that are
-   H's alone are added. */
+/* Roundings at points of a band, with those of H in eq->irradiance. */
 static void add_points(hr2di_estimator *e, size_t b) {
-  hr2di_equation *eq = &e->eq;
-  const hr2di_transport *t = &eq->transport;
+  const hr2di_equation *eq = &e->eq;
   const double own = HR2DI_ESTIMATOR_ROUNDING * e->largest[1][b] + slivers(e, b);
-  for (size_t leaf = 0; leaf < t->leaves && !hr2di_estimator_stopped(e); leaf++) {
+  for (size_t leaf = 0; leaf < eq->transport.leaves && !hr2di_estimator_stopped(e); leaf++) {
     const double h = hr2di_estimator_max(e, eq->irradiance, leaf, b) + own;
     e->stray[1][b] = fmax(e->stray[1][b], h);
     /* Where light from outside is absorbed at once, nothing is rounded. */
     if (e->largest[0][b] > 0)
       e->stray[0][b] = fmax(e->stray[0][b], hr2di_estimator_rho(e, leaf, b) * h);
-    eq->irradiance[leaf * t->width + b] +=
-        e->off[1][leaf * t->bands + b] +
-        HR2DI_ESTIMATOR_ROUNDING * e->level[leaf * t->bands + b];
   }
+}
+
+/* Adds to eq->irradiance the roundings that are H's alone. */
+static void add_own(hr2di_estimator *e) {
+  hr2di_equation *eq = &e->eq;
+  const hr2di_transport *t = &eq->transport;
+  for (size_t leaf = 0; leaf < t->leaves; leaf++)
+    for (size_t b = 0; b < t->bands; b++)
+      eq->irradiance[leaf * t->width + b] +=
+          e->off[1][leaf * t->bands + b] +
+          HR2DI_ESTIMATOR_ROUNDING * e->level[leaf * t->bands + b];
 }
 
 /* Of B on a leaf: ρ times that of H, and its own, as B or as c + z. */
@@ -236,7 +242,8 @@ hr2d_status hr2di_rounding_bound(hr2di_estimator *e, int reflects) {
   if (status) return status;
   hr2di_estimator_averages(e, e->error, e->rounding[0]);
   hr2di_equation_gather(eq, e->error);
-  for (size_t b = 0; b < t->bands; b++) add_points(e, b);
+  for (size_t b = 0; b < t->bands && e->target->points; b++) add_points(e, b);
+  add_own(e);
   hr2di_estimator_averages(e, eq->irradiance, e->rounding[1]);
   return HR2D_OK;
 }

@@ -7,6 +7,7 @@
 
 #include "base/pi.h"
 #include "base/sized-struct.h"
+#include "base/team.h"
 #include "field/leaf-errors.h"
 #include "field/past-ends.h"
 
@@ -276,7 +277,7 @@ hr2d_status hr2di_field_open(hr2di_field_call *f, const hr2d_solution *solution,
   f->source.patch_error = f->options.patch_error;
   f->team = (hr2di_field_team){.scene = &f->scene.scene,
                                .watch = &f->watch,
-                               .threads = f->options.threads,
+                               .threads = (unsigned)hr2di_team_threads(f->options.threads),
                                .needs = HR2DI_FIELD_ROOM * solution->bands};
   return status;
 }

@@ -8,6 +8,7 @@
 #include "base/pi.h"
 #include "base/sized-struct.h"
 #include "base/sort.h"
+#include "base/team.h"
 #include "field/field-impl.h"
 #include "field/past-ends.h"
 #include "geometry/vector.h"
@@ -268,8 +269,11 @@ static hr2d_status show_all(visit *v, hr2di_field_team *team, size_t count,
 
 static hr2d_status run(visit *v, const hr2d_field_options *o, size_t count,
                        hr2d_field_row_fn show, void *ctx) {
-  hr2di_field_team team = {
-      .scene = v->scene, .watch = v->watch, .threads = o->threads, .run = do_group, .ctx = v};
+  hr2di_field_team team = {.scene = v->scene,
+                           .watch = v->watch,
+                           .threads = (unsigned)hr2di_team_threads(o->threads),
+                           .run = do_group,
+                           .ctx = v};
   v->kept = hr2di_alloc(v->alloc, count < ROUND ? count : ROUND, sizeof *v->kept);
   const hr2d_status status = v->kept ? show_all(v, &team, count, show, ctx) : HR2D_ENOMEM;
   for (size_t k = 0; k < ROUND / GROUP; k++) {

@@ -5,6 +5,7 @@
 #include "base/alloc.h"
 #include "base/share.h"
 #include "base/sized-struct.h"
+#include "base/team.h"
 #include "refine/occluded-pairs.h"
 #include "refine/part-rows.h"
 #include "refine/projector.h"
@@ -17,7 +18,7 @@ static int directed_by(const hr2d_linkset *links, const hr2d_refine_options *opt
   return options->ordered || !(links->oracle.flags & HR2D_ORACLE_SYMMETRIC);
 }
 
-/* From here on ε = 0 and level 0 mean what they say. */
+/* From here on ε = 0, level 0 and the number of threads mean what they say. */
 static void set_defaults(hr2d_refine_options *o) {
   if (o->epsilon == HR2D_EPSILON_ZERO)
     o->epsilon = 0;
@@ -27,6 +28,7 @@ static void set_defaults(hr2d_refine_options *o) {
     o->max_level = 0;
   else if (!o->max_level)
     o->max_level = HR2D_DEFAULT_MAX_LEVEL;
+  o->threads = (unsigned)hr2di_team_threads(o->threads);
 }
 
 hr2d_status hr2di_projector_check_options(hr2d_linkset *links, const hr2d_refine_options *given,

@@ -9,6 +9,7 @@
 #include "base/alloc.h"
 #include "base/clock.h"
 #include "base/sized-struct.h"
+#include "base/team.h"
 #include "hierarchy/hierarchy-impl.h"
 #include "links/linkset-impl.h"
 
@@ -53,6 +54,7 @@ hr2d_status hr2d_study_run(hr2d_linkset *links, const hr2d_refine_options *optio
   if (done) *done = 0;
   if (hr2di_sized_copy(&used, sizeof used, options))
     return hr2di_message_fail(&links->message, HR2D_EINVAL, "struct_size is not set");
+  used.threads = (unsigned)hr2di_team_threads(used.threads);
   used.brightness = NULL; /* every count begins on a new hierarchy */
   if (links->store.count > 0)
     return hr2di_message_fail(&links->message, HR2D_ESTATE, "the set has links already");

@@ -8,6 +8,7 @@
 #include "base/alloc.h"
 #include "base/neumaier-sum.h"
 #include "base/sized-struct.h"
+#include "base/team.h"
 #include "hierarchy/hierarchy-impl.h"
 #include "scene/frozen-temperatures.h"
 #include "solution/solution-impl.h"
@@ -299,6 +300,7 @@ static hr2d_status run(hr2d_linkset *links, const hr2di_equation_how *how,
     return hr2di_message_fail(&links->message, HR2D_EINVAL, "struct_size is not set");
   hr2d_status status = check_options(links, &options, field != NULL);
   if (status) return status;
+  options.threads = (unsigned)hr2di_team_threads(options.threads);
   const hr2d_scene *scene = links->hierarchy->scene;
   hr2d_scene *frozen = NULL;
   hr2di_watch watch;

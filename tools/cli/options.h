@@ -153,4 +153,9 @@ static inline int options_targeted(const options *o) {
   return o->target_error > 0 || o->time_budget > 0;
 }
 
+/* Whether what is printed or written has values that are gathered at points. */
+static inline int options_want_points(const options *o) {
+  return o->command == FIELD || o->norm == HR2D_NORM_SUP || o->at.count > 0 || o->csv;
+}
+
 #endif

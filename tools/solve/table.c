@@ -116,7 +116,9 @@ static void print_method(const run *r) {
   puts("");
 }
 
+/* Errors at points that nobody asked for are not measured. */
 static void print_error_of(const char *title, const char *what, const hr2d_error *e) {
+  if (isnan(e->estimate)) return;
   if (isinf(e->estimate))
     printf("%-9s %s unknown\n", title, what);
   else
