@@ -73,6 +73,7 @@ static hr2d_target small_target(api_run *r, size_t important[2]) {
   const unsigned b = fuzz_byte(r->in);
   target.error = ldexp(1, -(int)(b & 15) - 1);
   target.norm = b & 16 ? HR2D_NORM_SUP : HR2D_NORM_AVERAGE;
+  target.points = b & 1;
   if (b & 32) {
     important[0] = important[1] = fuzz_byte(r->in) % hr2d_scene_patches(r->scene);
     if (important[0] & 1) important[1]--;
@@ -108,7 +109,10 @@ void api_target(api_run *r, api_slot *s) {
   REQUIRE(solution ? !status || status == HR2D_EACCURACY : status != HR2D_OK);
   if (solution) {
     check_error(&account.average);
-    check_error(&account.sup);
+    if (target.points || target.norm == HR2D_NORM_SUP)
+      check_error(&account.sup);
+    else
+      REQUIRE(isnan(account.sup.estimate) && isnan(account.irradiance_sup.bound));
     if (status == HR2D_OK) REQUIRE(!*account.reason);
     if (status == HR2D_EACCURACY) REQUIRE(*account.reason);
     for (size_t k = 0; k < hr2d_scene_patches(r->scene); k++)

@@ -144,6 +144,7 @@ hr2d_status PAGE(play_solve_to)(play *p, double error) {
   hr2d_target target = HR2D_TARGET_INIT;
   drop_solution(p);
   target.error = error;
+  target.points = 1;
   target.progress = ask_page;
   const hr2d_status status = hr2d_solve_to(p->scene, &target, &p->solution, &p->account);
   if (status == HR2D_EACCURACY && p->solution) {

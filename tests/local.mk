@@ -113,6 +113,7 @@ SUITES = \
 	tests/unit/accuracy/check-random-accuracy.c \
 	tests/unit/accuracy/check-random-periods.c \
 	tests/unit/accuracy/check-target-calls.c \
+	tests/unit/accuracy/check-points-asked.c \
 	tests/unit/estimate/check-cluster-residuals.c \
 	tests/unit/estimate/check-error-indicators.c \
 	tests/unit/estimate/check-single-blocks.c \

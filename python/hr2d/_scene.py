@@ -462,7 +462,8 @@ class Scene:
 
     def solve(self, *, error: Optional[float] = None, seconds: Optional[float] = None,
               norm: str = "average", important: Sequence[PatchLike] = (),
-              floor: Optional[float] = None, epsilon: Optional[float] = None,
+              floor: Optional[float] = None, points: bool = False,
+              epsilon: Optional[float] = None,
               oracle: OracleLike = None, policy: PolicyLike = None,
               order: Optional[int] = None, max_level: Optional[int] = None,
               closure: Optional[bool] = None, max_elements: int = 0, max_links: int = 0,
@@ -502,7 +503,8 @@ class Scene:
         closure
             Whether the exchange of every leaf is made exact; True by default.
 
-        Both take limits, `threads` (a number or "all") and `progress`, a function that is given
+        Both take `points`, which measures errors at points, too (the norm "sup" does that
+        anyway), limits, `threads` (a number or "all") and `progress`, a function that is given
         a Progress up to 20 times a second and returns False to stop.
         """
         target = {"error": error, "seconds": seconds, "floor": floor,
@@ -519,8 +521,8 @@ class Scene:
                             "paper's algorithm, one for a target")
         self.commit()
         if of_paper:
-            return _solve.by_links(self, paper, limits, progress)
-        return _solve.to_target(self, target, limits, progress)
+            return _solve.by_links(self, paper, limits, points, progress)
+        return _solve.to_target(self, target, limits, points, progress)
 
     # Pictures
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, NamedTuple, Optional, Tuple, Union
@@ -24,6 +25,10 @@ class Bounded(NamedTuple):
     @classmethod
     def _of(cls, raw: Any) -> "Bounded":
         return cls(raw.estimate, raw.bound)
+
+    @classmethod
+    def _if_measured(cls, raw: Any) -> Optional["Bounded"]:
+        return None if math.isnan(raw.estimate) else cls._of(raw)
 
 
 class Power(NamedTuple):
@@ -95,14 +100,15 @@ class Field(NamedTuple):
 class Account:
     """The errors of a solution, and what it took.
 
-    Errors of B and H are relative: of averages over patches, and with `sup` at points.  Of a
-    solution by links `sup` is of values without a gather.
+    Errors of B and H are relative: of averages over patches, and with `sup` at points: None
+    unless solve() was asked for `points` or the norm "sup".  Of a solution by links `sup` is of
+    values without a gather.
     """
 
     average: Bounded
-    sup: Bounded
+    sup: Optional[Bounded]
     irradiance: Bounded
-    irradiance_sup: Bounded
+    irradiance_sup: Optional[Bounded]
     order: int
     elements: int
     leaves: int
@@ -113,9 +119,10 @@ class Account:
 
     @classmethod
     def _of(cls, raw: Any, reached: bool) -> "Account":
-        return cls(Bounded._of(raw.average), Bounded._of(raw.sup), Bounded._of(raw.irradiance),
-                   Bounded._of(raw.irradiance_sup), raw.order, raw.elements, raw.leaves,
-                   raw.links, raw.seconds, reached, ffi.string(raw.reason).decode())
+        return cls(Bounded._of(raw.average), Bounded._if_measured(raw.sup),
+                   Bounded._of(raw.irradiance), Bounded._if_measured(raw.irradiance_sup),
+                   raw.order, raw.elements, raw.leaves, raw.links, raw.seconds, reached,
+                   ffi.string(raw.reason).decode())
 
     def _repr_html_(self) -> str:
         return _draw.account_html(self)
@@ -124,11 +131,13 @@ class Account:
 class Solution:
     """The radiosity of a scene: Scene.solve() makes it."""
 
-    def __init__(self, scene: Any, raw: Any, account: Optional[Account], told: Any = None):
+    def __init__(self, scene: Any, raw: Any, account: Optional[Account], told: Any = None,
+                 points: bool = False):
         self.scene = scene
         self._raw = raw
         self._account = account
         self._told = told or (ffi.NULL, ffi.NULL)  # target and account of hr2d_solve_to()
+        self._points = points  # whether a solution by links is measured at points, too
 
     def __repr__(self) -> str:
         return f"<hr2d.Solution of {len(self.scene)} patches, {len(self.elements)} elements>"
@@ -188,10 +197,16 @@ class Solution:
         """
         return self._account or self._measured()
 
-    def _measured(self) -> Account:
-        raw = ffi.new("hr2d_account *")
+    def _measure(self, points: bool) -> Any:
+        target, raw = ffi.new("hr2d_target *"), ffi.new("hr2d_account *")
+        lib.hr2d_target_init(target, ffi.sizeof("hr2d_target"))
+        target.points = bool(points)
         with Call() as call:
-            call.check(lib.hr2d_solution_account(self._raw, ffi.NULL, raw))
+            call.check(lib.hr2d_solution_account(self._raw, target, raw))
+        return raw
+
+    def _measured(self) -> Account:
+        raw = self._measure(self._points)
         self._account = dataclasses.replace(Account._of(raw, True), seconds=None)
         self._told = (ffi.NULL, raw)
         return self._account
@@ -229,7 +244,8 @@ class Solution:
 
         `points` are x and y, in any shape: `np.mgrid[0:5:200j, 0:3:100j]`, or two arrays.
         With `errors` those of the values are measured, in the time of some gathers for each
-        leaf element.
+        leaf element.  They follow from the errors at points; if solve() was not asked for
+        these, they are measured first, which takes longer than the solve.
         """
         x, y = np.broadcast_arrays(*np.asarray(points, dtype=np.float64))
         at = np.stack([x.ravel(), y.ravel()], axis=1)
@@ -245,16 +261,18 @@ class Solution:
             "place": ffi.cast("unsigned char *", ffi.from_buffer(f.place))})
         options = ffi.new("hr2d_field_options *", {
             "struct_size": ffi.sizeof("hr2d_field_options"), "threads": thread_count(threads),
-            "account": self._error_account() if errors else ffi.NULL})
+            "account": self._point_account if errors else ffi.NULL})
         with Call(progress) as call:
             call.check(lib.hr2d_field_at(self._raw, ffi.cast("hr2d_point *", doubles(at)),
                                          len(at), options, values))
         return f
 
-    def _error_account(self) -> Any:
-        """The account in C; that of a solution by links is measured first."""
-        self.account
-        return self._told[1]
+    @cached_property
+    def _point_account(self) -> Any:
+        """An account in C that has the errors at points."""
+        told = self._told[1]
+        known = told != ffi.NULL and not math.isnan(told.sup.estimate)
+        return told if known else self._measure(points=True)
 
     def _point_values(self, getter: str, patch: int, t: np.ndarray, shape: Any) -> np.ndarray:
         values = np.empty(shape)

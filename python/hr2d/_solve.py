@@ -30,7 +30,8 @@ def _error(error: Optional[float], seconds: Optional[float]) -> float:
     return _positive("error", error)
 
 
-def make_target(target: Dict[str, Any], limits: Dict[str, int], keep: list) -> Any:
+def make_target(target: Dict[str, Any], limits: Dict[str, int], points: bool,
+                keep: list) -> Any:
     """The struct of a target; `keep` has what it points to."""
     norm = target["norm"] or "average"
     if norm not in NORMS:
@@ -39,6 +40,7 @@ def make_target(target: Dict[str, Any], limits: Dict[str, int], keep: list) -> A
     lib.hr2d_target_init(raw, ffi.sizeof("hr2d_target"))
     raw.error = _error(target["error"], target["seconds"])
     raw.norm = NORMS[norm]
+    raw.points = bool(points)
     if target["seconds"] is not None:
         raw.seconds = _positive("seconds", target["seconds"])
     if target["floor"] is not None:
@@ -51,10 +53,10 @@ def make_target(target: Dict[str, Any], limits: Dict[str, int], keep: list) -> A
     return raw
 
 
-def to_target(scene: Any, target: Dict[str, Any], limits: Dict[str, int],
+def to_target(scene: Any, target: Dict[str, Any], limits: Dict[str, int], points: bool,
               progress: Optional[ProgressFunction]) -> Solution:
     keep: list = []
-    raw = make_target(target, limits, keep)
+    raw = make_target(target, limits, points, keep)
     pointer, account = ffi.new("hr2d_solution **"), ffi.new("hr2d_account *")
     with Call(progress) as call:
         status = lib.hr2d_solve_to(scene._raw, raw, pointer, account)
@@ -93,7 +95,7 @@ def _solve_options(paper: Dict[str, Any], limits: Dict[str, int]) -> Any:
     return raw
 
 
-def by_links(scene: Any, paper: Dict[str, Any], limits: Dict[str, int],
+def by_links(scene: Any, paper: Dict[str, Any], limits: Dict[str, int], points: bool,
              progress: Optional[ProgressFunction]) -> Solution:
     hierarchy = ffi.new("hr2d_hierarchy **")
     links, pointer = ffi.new("hr2d_linkset **"), ffi.new("hr2d_solution **")
@@ -113,4 +115,5 @@ def by_links(scene: Any, paper: Dict[str, Any], limits: Dict[str, int],
 
         call.check(lib.hr2d_refine(pairs, _refine_options(paper, limits)), message)
         call.check(lib.hr2d_solve(pairs, _solve_options(paper, limits), pointer), message)
-    return Solution(scene, owned(pointer[0], lib.hr2d_solution_destroy, pairs), None)
+    return Solution(scene, owned(pointer[0], lib.hr2d_solution_destroy, pairs), None,
+                    points=points)

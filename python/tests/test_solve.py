@@ -48,6 +48,24 @@ def test_points_are_those_of_nystroem(plates, exact):
     assert s.at(1, []).B.shape == (0, 1)
 
 
+def test_errors_at_points_are_measured_where_they_are_asked_for(plates, exact):
+    s = plates.solve(error=1e-3)
+    assert s.account.sup is None and s.account.irradiance_sup is None
+    asked, t = plates.solve(error=1e-3, points=True), np.linspace(0, 1, 9)
+    assert asked.account.average == s.account.average
+    H = exact.ceiling_irradiance(1 - t)
+    off = np.abs(asked.at("ceiling", t).H[:, 0] - H).max() / H.max()
+    assert off <= asked.account.irradiance_sup.bound < 1 and asked.account.sup.bound > 0
+    assert plates.solve(error=1e-3, norm="sup").account.sup.bound > 0
+    assert "points" not in s._repr_html_() and "points" in asked._repr_html_()
+
+
+def test_errors_at_points_of_a_solution_by_links(plates):
+    assert plates.solve(epsilon=2).account.sup is None
+    account = plates.solve(epsilon=2, points=True).account
+    assert account.sup.bound >= account.average.estimate > 1e-4
+
+
 def test_without_subdivision_the_ceiling_has_the_factor_of_the_floor():
     scene = make_plates(.5)
     s = scene.solve(max_level=0, epsilon=0, closure=False)
@@ -68,6 +86,15 @@ def test_the_field_over_a_lamp():
     assert f.sky == pytest.approx(1 - share) and (f.place == 0).all()
     assert np.isnan(s.field([.5, -1]).mean).all() and s.field([.5, 0]).place == 1
     assert s.field(np.mgrid[0:1:4j, 1:2:3j]).flux.shape == (4, 3, 1, 2)
+
+
+@pytest.mark.parametrize("asked", [{}, {"points": True}, {"epsilon": .1}])
+def test_errors_of_a_field_are_measured_whatever_was_asked_for(plates, asked):
+    s, at = plates.solve(**asked), [[.1, .5], [.5, .9]]
+    truth = plates.solve(error=1e-11).field(at).mean
+    f = s.field(at, errors=True)
+    assert (np.abs(f.mean - truth) <= f.error).all() and (f.error < .5).all()
+    assert np.isnan(s.field(at).error).all()
 
 
 def test_the_field_of_a_furnace():

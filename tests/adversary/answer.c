@@ -112,6 +112,7 @@ void adv_ask(const adv_scene *scene, adv_question question, const adv_points *po
   hr2d_target target = HR2D_TARGET_INIT;
   target.error = question.error;
   target.norm = question.norm;
+  target.points = 1;
   target.seconds = question.seconds;
 #if ADV_ACCOUNT_OF_H
   target.floor = question.floor;

@@ -11,6 +11,7 @@ hr2d_solution *accuracy_solve(const hr2d_scene *scene, double error, hr2d_norm n
   hr2d_solution *solution = NULL;
   target.error = error;
   target.norm = norm;
+  target.points = 1;
   const hr2d_status status = hr2d_solve_to(scene, &target, &solution, account);
   ck_assert_msg(status == HR2D_OK || status == HR2D_EACCURACY, "%s: %s", hr2d_strerror(status),
                 account->reason);

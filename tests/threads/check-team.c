@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The library where the system gives it fewer threads than it asks for: pthread_create() of
    this program fails after some calls.  Results have the same bits, and no call ends the
-   program. */
+   program.  And how often it asks for the number of processors, in sysconf() of this program,
+   which opens a file of the system each time. */
 #include <dlfcn.h>
 #include <errno.h>
 #include <pthread.h>
 #include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "base/team.h"
 #include "support/support.h"
@@ -26,6 +28,15 @@ int pthread_create(pthread_t *thread, const pthread_attr_t *attr, void *(*start)
   if (atomic_load(&threads_left) > 0) atomic_fetch_sub(&threads_left, 1);
   atomic_fetch_add(&created, 1);
   return real(thread, attr, start, arg);
+}
+
+static atomic_int asked;
+
+long sysconf(int name) {
+  long (*real)(int);
+  *(void **)&real = dlsym(RTLD_NEXT, "sysconf");
+  if (name == _SC_NPROCESSORS_ONLN) atomic_fetch_add(&asked, 1);
+  return real(name);
 }
 
 enum { TASKS = 1000, TEAM = 8 };
@@ -121,6 +132,45 @@ START_TEST(fewer_threads_give_the_same_bits) {
 }
 END_TEST
 
+static int asked_by(hr2d_status status) {
+  ck_assert_int_eq(status, HR2D_OK);
+  return atomic_exchange(&asked, 0);
+}
+
+START_TEST(processors_are_counted_once_per_call) {
+  if (hr2di_team_threads(4) == 1) return; /* a library without threads */
+  test_links t =
+      test_make_links(test_shipped_scene("partition.geojson"), NULL, NULL, NULL, NULL);
+  hr2d_target target = HR2D_TARGET_INIT;
+  hr2d_refine_options refine = test_options(0.5, 24);
+  hr2d_solve_options solve = HR2D_SOLVE_OPTIONS_INIT;
+  hr2d_field_options field = HR2D_FIELD_OPTIONS_INIT;
+  hr2d_field_grid grid = HR2D_FIELD_GRID_INIT;
+  hr2d_field_values values = HR2D_FIELD_VALUES_INIT;
+  hr2d_solution *to = NULL, *by = NULL;
+  hr2d_prediction prediction;
+  double mean[36];
+  target.threads = refine.threads = solve.threads = field.threads = HR2D_ALL_THREADS;
+  target.error = 1e-3;
+  target.points = 1;
+  grid.low = (hr2d_point){.1, .1}, grid.high = (hr2d_point){.4, .4};
+  grid.columns = grid.rows = 6;
+  grid.tolerance = .01;
+  values.mean = mean;
+  atomic_store(&asked, 0);
+  ck_assert_int_eq(asked_by(hr2d_solve_to(t.scene, &target, &to, NULL)), 1);
+  ck_assert_int_eq(asked_by(hr2d_predict(t.scene, &target, &prediction)), 1);
+  ck_assert_int_eq(asked_by(hr2d_refine(t.links, &refine)), 1);
+  ck_assert_int_eq(asked_by(hr2d_solve(t.links, &solve, &by)), 1);
+  ck_assert_int_eq(asked_by(hr2d_solution_error(by, &target, NULL, NULL)), 1);
+  ck_assert_int_eq(asked_by(hr2d_field_on_grid(to, &grid, &field, &values, NULL)), 1);
+  hr2d_solution_destroy(to);
+  hr2d_solution_destroy(by);
+  test_free_links(&t);
+}
+END_TEST
+
 TEST_PROGRAM("team") {
-  ADD_TESTS("threads", every_task_is_done_once, fewer_threads_give_the_same_bits);
+  ADD_TESTS("threads", every_task_is_done_once, fewer_threads_give_the_same_bits,
+            processors_are_counted_once_per_call);
 }

@@ -42,6 +42,7 @@ START_TEST(some_factors) {
     hr2d_solution *solution;
     hr2d_account a;
     target.max_links = links[k];
+    target.points = 1;
     ck_assert_int_eq(hr2d_solve_to(scene, &target, &solution, &a), HR2D_EACCURACY);
     check_answer(solution, &a);
     ck_assert_uint_le(a.links, links[k]);

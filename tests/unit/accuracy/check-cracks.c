@@ -83,6 +83,7 @@ static layer solve_layer(double width, double target, hr2d_norm norm) {
   layer l;
   how.error = target;
   how.norm = norm;
+  how.points = 1;
   const hr2d_status status = hr2d_solve_to(scene, &how, &solution, &l.account);
   ck_assert(status == HR2D_OK || status == HR2D_EACCURACY);
   for (size_t k = 0; k < POINTS; k++) {

@@ -55,6 +55,7 @@ static hr2d_solution *solve(const hr2d_scene *scene, double error, hr2d_account 
   hr2d_target target = HR2D_TARGET_INIT;
   hr2d_solution *solution;
   target.error = error;
+  target.points = 1;
   const hr2d_status status = hr2d_solve_to(scene, &target, &solution, a);
   const double bound = fmax(a->average.bound, a->irradiance.bound);
   ck_assert_msg(status == HR2D_OK || (status == HR2D_EACCURACY && bound > error), "%g: %s",

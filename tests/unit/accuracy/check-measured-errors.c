@@ -29,6 +29,7 @@ static stage measure(hr2d_scene *scene, double epsilon, unsigned order) {
   hr2d_target how = HR2D_TARGET_INIT;
   refine.epsilon = epsilon;
   how.error = 1e-8;
+  how.points = 1;
   ck_assert_int_eq(hr2d_hierarchy_create(scene, &s.hierarchy), HR2D_OK);
   ck_assert_int_eq(hr2d_hierarchy_set_order(s.hierarchy, order), HR2D_OK);
   ck_assert_int_eq(hr2d_linkset_create(s.hierarchy, NULL, NULL, NULL, NULL, &s.links), HR2D_OK);

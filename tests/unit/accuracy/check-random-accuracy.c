@@ -215,6 +215,7 @@ START_TEST(threads_change_no_bit) {
     for (int m = 0; m < 3; m++) {
       hr2d_target target = HR2D_TARGET_INIT;
       target.threads = threads[m];
+      target.points = 1;
       const hr2d_status status = hr2d_solve_to(scene, &target, &solution[m], &a[m]);
       ck_assert(status == HR2D_OK || status == HR2D_EACCURACY);
     }

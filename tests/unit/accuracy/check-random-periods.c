@@ -89,6 +89,7 @@ static answer solve(const cell *c, int cells, double error) {
   hr2d_target target = HR2D_TARGET_INIT;
   answer a = {.max = 0};
   target.error = error;
+  target.points = 1;
   for (int m = 0; m < cells; m++)
     for (size_t k = 0; k < c->count; k++) {
       const double *p = c->at[k], x = m * c->step;

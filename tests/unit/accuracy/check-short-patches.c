@@ -109,6 +109,7 @@ static void check_room(const short_room *r, int k, const convex_solution *truth,
   found f = {{0, 0}, {0, 0}};
   target.error = error;
   target.norm = norm;
+  target.points = 1;
   const hr2d_status status = hr2d_solve_to(scene, &target, &solution, &a);
   ck_assert_msg(status == HR2D_OK, "room %d, %g: %s", k, error, a.reason);
   compare_averages(r, truth, solution, &f);

@@ -66,6 +66,7 @@ START_TEST(without_an_account_nothing_is_spent_on_the_error) {
   hr2d_solution *measured, *plain;
   hr2d_prediction all, part;
   target.error = 1e-8;
+  target.points = 1;
   ck_assert_int_eq(hr2d_solve_to(scene, &target, &measured, &with), HR2D_OK);
   ck_assert_int_eq(hr2d_predict(scene, &target, &all), HR2D_OK);
   target.no_error = 1;

@@ -273,11 +273,12 @@ END_TEST
 /* Solves on whole patches or so, and estimates the error. */
 static void estimate(const hr2d_scene *scene, hr2di_resolution *f, hr2di_graded *answer,
                      hr2di_error_pair *errors) {
-  const hr2d_target target = HR2D_TARGET_INIT;
+  hr2d_target target = HR2D_TARGET_INIT;
   hr2di_message message;
   hr2di_survey survey;
   hr2di_watch watch;
   const int skip_bound = f->skip_bound;
+  target.points = 1;
   hr2di_scene_watch(scene, &watch, NULL, NULL, "refine");
   ck_assert_int_eq(hr2di_strategy_survey(scene, NULL, 1, &watch, &survey), HR2D_OK);
   *f = hr2di_strategy_for(scene, &survey, 1e-4, &target, NULL);
@@ -290,12 +291,13 @@ static void estimate(const hr2d_scene *scene, hr2di_resolution *f, hr2di_graded 
 
 /* A bound that nobody waited for is the same when it is asked for, and so is what to divide. */
 START_TEST(bounds_may_come_later) {
-  const hr2d_target target = HR2D_TARGET_INIT;
+  hr2d_target target = HR2D_TARGET_INIT;
   hr2d_scene *scene = squares(140);
   hr2di_resolution f = {.skip_bound = 0}, skip_bound = {.skip_bound = 1};
   hr2di_graded whole, part;
   hr2di_error_pair all, some;
   hr2di_message message;
+  target.points = 1;
   estimate(scene, &f, &whole, &all);
   estimate(scene, &skip_bound, &part, &some);
   ck_assert(isfinite(all.average.bound) && isfinite(all.irradiance_sup.bound));
@@ -345,6 +347,7 @@ START_TEST(answers_have_bounds) {
   hr2d_account account, all;
   hr2d_solution *solution = NULL, *reference = NULL;
   target.error = 1e-3;
+  target.points = 1;
   ck_assert_int_eq(hr2d_solve_to(scene, &target, &reference, &all), HR2D_OK);
   ck_assert_uint_gt(all.solves, 1);
   target.max_elements = all.elements - 1;

@@ -171,6 +171,7 @@ static hr2d_solution *solve(const hr2d_scene *scene, hr2d_norm norm, double erro
   hr2d_solution *solution;
   target.error = error;
   target.norm = norm;
+  target.points = 1;
   const hr2d_status status = hr2d_solve_to(scene, &target, &solution, a);
   ck_assert_msg(status == HR2D_OK || status == HR2D_EACCURACY, "%g: status %d", error,
                 (int)status);

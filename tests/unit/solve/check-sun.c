@@ -234,6 +234,7 @@ START_TEST(what_is_absorbed_at_once_sends_nothing) {
     ck_assert_int_eq(hr2d_scene_set_sun(scene, &sun, 1), HR2D_OK);
     test_commit(scene);
     target.error = pow(10, -2 - 4 * order);
+    target.points = 1;
     ck_assert_int_eq(hr2d_solve_to(scene, &target, &solution, &account), HR2D_OK);
     /* The sun comes in through .02, at a slope of 4 to 3. */
     ck_assert_double_eq_tol(4 * hr2d_solution_irradiance(solution, 3, 0), 800 * .02 * .6, 1e-9);
