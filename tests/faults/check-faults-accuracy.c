@@ -32,6 +32,7 @@ static hr2d_status solve_to(fault_stage *s, uint64_t *sum, const hr2d_target *ta
 static hr2d_status reach(fault_stage *s, uint64_t *sum) {
   hr2d_target target = HR2D_TARGET_INIT;
   target.error = 1e-3;
+  target.points = 1;
   return solve_to(s, sum, &target);
 }
 

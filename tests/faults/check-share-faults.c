@@ -60,6 +60,7 @@ static hr2d_status solve_to(plan *p, const hr2d_scene *scene, hr2d_share *share,
   target.error = p->error;
   target.seconds = p->seconds;
   target.max_links = p->max_links;
+  target.points = p->victim % 2 == 0;
   target.share = share;
   target.progress = ask;
   target.progress_ctx = a;

@@ -128,8 +128,21 @@ check "an enclosure, to its bound" awk -v e="$(value bound "$work/t.json")" '
   index($0, "\"average\": [") { getline; d = $1 - 1; if (d < 0) d = -d; if (d > e) bad = 1; n++ }
   END { exit bad || n != 4 || e > 1e-12 }' "$work/t.json"
 
-# ---- the JSON of a target
+# ---- errors at points are measured for values at points
 succeeds solve "$narrow" --target-error 1e-9 --json "$work/t.json"
+for key in sup_estimate sup_bound; do
+  check "averages alone: $key" grep -q "^    \"$key\": null" "$work/t.json"
+  check "nor of H: $key" grep -q "^      \"$key\": null" "$work/t.json"
+done
+check "no line about points" lacks 'at points' "$work/out"
+check "but the error of averages" grep -q '^error     of averages about [0-9]' "$work/out"
+succeeds solve "$narrow" --target-error 1e-9 --csv "$work/t.csv"
+check "rows of leaves have errors at points" grep -q '^ *of H at points about [0-9]' "$work/out"
+succeeds solve "$narrow" --eps 0.3
+check "nor has another solution any" lacks 'at points' "$work/out"
+
+# ---- the JSON of a target
+succeeds solve "$narrow" --target-error 1e-9 --at 0:0.5 --json "$work/t.json"
 for key in scene patches at elements leaves links limited_links levels order epsilon oracle \
   variant effects work seconds peak_bytes error status target; do
   check "a target has the key $key" grep -q "^  \"$key\": " "$work/t.json"

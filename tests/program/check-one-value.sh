@@ -113,7 +113,7 @@ scene black '' \
   "$(feature '"name": "hot", "emission": 1' '[2, 1], [0, 1]')" \
   "$(feature '"name": "floor"' '[0, 0], [2, 0]')"
 succeeds solve "$work/black" --eps 10 --json "$work/json"
-run solve "$work/black" --eps 10
+run solve "$work/black" --eps 10 --at hot:0.5
 check "errors of H" grep -q '^ *of H at points about [1-9]' "$work/out"
 run solve "$work/black" --eps 10 --no-error
 check "what is not measured" grep -qx 'error     not measured' "$work/out"
