@@ -85,6 +85,7 @@ SUITES = \
 	tests/unit/solve/check-equation-enough.c \
 	tests/unit/solve/check-equation-part.c \
 	tests/unit/solve/check-gather-areas.c \
+	tests/unit/solve/check-gather-blocks.c \
 	tests/unit/solve/check-gather-links.c \
 	tests/unit/solve/check-leading-blocks.c \
 	tests/unit/solve/check-row-sums.c \

@@ -67,7 +67,7 @@ static hr2d_status time_blocks(const hr2di_graded *a, size_t order, hr2di_watch 
 /* The time for one block's product, both ways, of MOST_BANDS at most. */
 static double time_product(size_t order, size_t bands) {
   double block[HR2D_MAX_ORDER * HR2D_MAX_ORDER] = {0};
-  double field[4][MOST_BANDS * HR2D_MAX_ORDER + HR2DI_BEHIND] = {{0}};
+  double field[4][MOST_BANDS * HR2D_MAX_ORDER] = {{0}};
   double min = HUGE_VAL;
   for (int run = 0; run < 5; run++) {
     const double start = hr2di_clock_now();

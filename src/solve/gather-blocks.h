@@ -1,15 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Products with a block C of order × order coefficients, row by row.
-   Fields have order × bands coefficients.  Each band has the bits that it would have alone.
-
-   In 2 to 4 bands hr2di_gather_both() reads vectors of four: up to HR2DI_BEHIND numbers behind
-   each of its fields, which it leaves alone. */
+   Fields have order × bands coefficients.  Each band has the bits that it would have alone. */
 #ifndef HR2D_SRC_SOLVE_GATHER_BLOCKS_H
 #define HR2D_SRC_SOLVE_GATHER_BLOCKS_H
 
 #include <stddef.h>
-
-enum { HR2DI_BEHIND = 3 };
 
 /* to_l += Σ_m C_lm from_m */
 void hr2di_gather_block(const double *block, size_t order, size_t bands, const double *from,

@@ -16,7 +16,7 @@ typedef struct hr2di_link_run {
 } hr2di_link_run;
 
 /* down_i += C up_j and down_j += Cᵀ up_i over the links of a run, whose blocks are of this
-   order.  Up to HR2DI_BEHIND numbers behind `up` and `down` are read, see gather-blocks.h. */
+   order. */
 void hr2di_gather_links(const hr2di_link_run *run, size_t order, size_t bands, const double *up,
                         double *down);
 

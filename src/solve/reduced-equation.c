@@ -40,8 +40,8 @@ static hr2d_status set_transport(hr2di_transport *t, const hr2di_transport *of, 
   t->up = t->down = t->closure = t->sky = t->mean = t->leading = NULL;
   hr2d_status status =
       hr2di_push_pull_init(&t->trees, t->hierarchy, &t->alloc, order, t->bands, t->watch);
-  t->up = hr2di_alloc(&t->alloc, t->elements + 1, t->width * sizeof *t->up);
-  t->down = hr2di_alloc(&t->alloc, (t->elements + 1) * t->slices, t->width * sizeof *t->down);
+  t->up = hr2di_alloc(&t->alloc, t->elements, t->width * sizeof *t->up);
+  t->down = hr2di_alloc(&t->alloc, t->elements * t->slices, t->width * sizeof *t->down);
   if (!status && of->closure) {
     void *closure = NULL;
     status = hr2di_leading_blocks(&closure, of->closure, sizeof *t->closure, t->leaves,

@@ -32,7 +32,7 @@ struct hr2di_shared {
   hr2di_bin *bin;               /* elements × width */
   double *size;                 /* elements × bands: s of the element */
   double *max;  /* likewise: the largest s of those that it is linked with, then σ */
-  double *term; /* per part two products with a block, and what is behind them */
+  double *term; /* per part two products with a block */
 };
 
 /* Work of one gather that is worth another thread, in coefficients of blocks. */
@@ -75,7 +75,7 @@ hr2d_status hr2di_shared_gather_init(hr2di_transport *t) {
   s->bin = hr2di_alloc(&t->alloc, t->elements, t->width * sizeof *s->bin);
   s->size = hr2di_alloc(&t->alloc, t->elements, bands);
   s->max = hr2di_alloc(&t->alloc, t->elements, bands);
-  s->term = hr2di_alloc(&t->alloc, 3 * s->parts, t->width * sizeof *s->term);
+  s->term = hr2di_alloc(&t->alloc, 2 * s->parts, t->width * sizeof *s->term);
   return s->bin && s->size && s->max && s->term ? HR2D_OK : HR2D_ENOMEM;
 }
 
@@ -193,7 +193,7 @@ static void gather_part(void *ctx, size_t worker, size_t part) {
     const int first = p->first && pair.first >= from && pair.first < to;
     const int second = p->second && pair.second >= from && pair.second < to;
     if (t->order > 1) {
-      send_block(t, k, &link, first, second, t->shared->term + 3 * part * width);
+      send_block(t, k, &link, first, second, t->shared->term + 2 * part * width);
       continue;
     }
     const double area = hr2di_link_part(t, pair) * link.exchange_area;

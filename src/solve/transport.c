@@ -62,8 +62,8 @@ hr2d_status hr2di_transport_init(hr2di_transport *t, const hr2d_linkset *links, 
       hr2di_push_pull_init(&t->trees, h, &t->alloc, t->order, t->bands, watch);
   if (status) return status;
   t->leaf = hr2di_alloc(&t->alloc, (size_t)hr2d_hierarchy_count(h).leaves, sizeof *t->leaf);
-  t->up = hr2di_alloc(&t->alloc, t->elements + 1, field);
-  t->down = hr2di_alloc(&t->alloc, (t->elements + 1) * t->slices, field);
+  t->up = hr2di_alloc(&t->alloc, t->elements, field);
+  t->down = hr2di_alloc(&t->alloc, t->elements * t->slices, field);
   if (!t->leaf || !t->up || !t->down) return HR2D_ENOMEM;
   for (size_t e = 0; e < t->elements; e++)
     if (!h->element[e].child) t->leaf[t->leaves++] = (uint32_t)e;
@@ -209,7 +209,7 @@ static void gather_blocks(const hr2di_transport *t, hr2di_transport_part part, s
 static void gather_slice(const hr2di_transport *t, hr2di_transport_part part, size_t slice,
                          hr2di_watch *watch) {
   const size_t field = t->elements * t->width;
-  double *down = t->down + slice * hr2di_transport_room(t);
+  double *down = t->down + slice * field;
   if (hr2di_watch_work(watch, field / 128)) return;
   memset(down, 0, field * sizeof *down);
   if (t->order > 1)
@@ -264,14 +264,14 @@ enum { TASK = 8192 };
 static void sum_some(void *ctx, size_t worker, size_t task) {
   const slices *s = ctx;
   const hr2di_transport *t = s->t;
-  const size_t field = t->elements * t->width, room = hr2di_transport_room(t);
+  const size_t field = t->elements * t->width;
   const size_t first = task * TASK;
   const size_t last = field - first > TASK ? first + TASK : field;
   for (size_t from = first, to; from < last; from = to) {
     to = last - from > BATCH ? from + BATCH : last;
     if (worker == 0 && hr2di_watch_work(t->watch, t->slices * BATCH / 64)) return;
     for (size_t k = 1; k < t->slices; k++)
-      for (size_t m = from; m < to; m++) t->down[m] += t->down[k * room + m];
+      for (size_t m = from; m < to; m++) t->down[m] += t->down[k * field + m];
   }
 }
 

@@ -24,7 +24,7 @@ typedef struct hr2di_transport {
   size_t order, bands, width; /* width is order × bands */
   size_t elements, leaves;
   uint32_t *leaf; /* the element of each leaf */
-  double *up;     /* elements × width, with room for one element behind: radiosity */
+  double *up;     /* elements × width: radiosity */
   struct hr2di_shared *shared; /* sums over shares; NULL: there is but one */
   double *down;     /* per slice the same: power received; then in the first one irradiance */
   double *receive;  /* order 1: factors per element for the push; NULL: light spreads evenly */
@@ -45,12 +45,6 @@ typedef struct hr2di_transport {
   int check; /* links count with what this check of the extrapolation leaves, less 1; 0: as they
                 are */
 } hr2di_transport;
-
-/* Numbers of a field of elements with one element more behind them, which gathers read and
-   leave alone. */
-static inline size_t hr2di_transport_room(const hr2di_transport *t) {
-  return (t->elements + 1) * t->width;
-}
 
 /* The copies of `down` that the operator of an order has. */
 size_t hr2di_transport_slices(const hr2d_linkset *links, size_t order);
