@@ -7,6 +7,8 @@
 
 #include <stddef.h>
 
+#include "base/wide.h"
+
 static inline double hr2di_dot_four(double s0, double s1, double s2, double s3) {
   return (s0 + s2) + (s1 + s3);
 }
@@ -24,6 +26,18 @@ static inline double hr2di_dot_strided(const double *a, const double *b, size_t 
   }
   for (; k < count; k++) rest += a[k] * b[k * stride];
   return hr2di_dot_four(s0, s1, s2, s3) + rest;
+}
+
+/* Four such products, for b and the three numbers behind it. */
+HR2DI_PART void hr2di_dot_fours(const double *a, const double *b, size_t stride, size_t count,
+                                hr2di_four *to) {
+  hr2di_four s[4] = {{0}}, rest = {0};
+  size_t k = 0;
+  for (; k + 4 <= count; k += 4)
+    for (size_t q = 0; q < 4; q++)
+      s[q] += a[k + q] * *(const hr2di_four *)(b + (k + q) * stride);
+  for (; k < count; k++) rest += a[k] * *(const hr2di_four *)(b + k * stride);
+  *to = ((s[0] + s[2]) + (s[1] + s[3])) + rest;
 }
 
 #endif

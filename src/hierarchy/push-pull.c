@@ -69,10 +69,17 @@ static inline hr2d_status declare(const hr2di_push_pull *p, uint32_t element) {
 /* parent_l += part Σ_k relation_lk child_k.  A constant stride lets the compiler vectorise. */
 static inline void add_up_bands(const double *relation, size_t order, size_t bands, double part,
                                 const double *child, double *parent) {
-  for (size_t l = 0; l < order; l++)
-    for (size_t b = 0; b < bands; b++)
+  for (size_t l = 0; l < order; l++) {
+    size_t b = 0;
+    for (; b + 4 <= bands; b += 4) {
+      hr2di_four sum;
+      hr2di_dot_fours(relation + l * order, child + b, bands, l + 1, &sum);
+      *(hr2di_four *)(parent + l * bands + b) += part * sum;
+    }
+    for (; b < bands; b++)
       parent[l * bands + b] +=
           part * hr2di_dot_strided(relation + l * order, child + b, bands, l + 1);
+  }
 }
 
 static void add_up(const hr2di_push_pull *p, const double *relation, double part,
@@ -118,8 +125,8 @@ void hr2di_push_pull_up(const hr2di_push_pull *p, const double *spread, double *
 static inline void add_down_bands(const double *relation, size_t order, size_t bands,
                                   const double *restrict parent, double *restrict child) {
   for (size_t l = 0; l < order; l++)
-    for (size_t b = 0; b < bands; b++)
-      for (size_t k = 0; k <= l; k++)
+    for (size_t k = 0; k <= l; k++)
+      for (size_t b = 0; b < bands; b++)
         child[k * bands + b] += relation[l * order + k] * parent[l * bands + b];
 }
 

@@ -28,13 +28,13 @@ HR2DI_PART double number_of(const row *r, size_t m) {
 }
 
 HR2DI_PART void load_four(const row *r, size_t m, hr2di_four *to) {
-  const void *from = m < r->split ? r->head : r->tail;
-  const size_t at = m < r->split ? m : m - r->split;
-  if (r->single || (m < r->split && m + 4 > r->split))
+  if (m + 4 <= r->split)
+    hr2di_four_numbers(r->head, m, r->single, r->area, to);
+  else if (m >= r->split)
+    hr2di_four_numbers(r->tail, m - r->split, r->single, r->area, to);
+  else
     *to = (hr2di_four){number_of(r, m), number_of(r, m + 1), number_of(r, m + 2),
                        number_of(r, m + 3)};
-  else
-    *to = *(const hr2di_four *)((const double *)from + at);
 }
 
 /* Coefficients of an element, or sums for them. */
