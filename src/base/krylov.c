@@ -81,7 +81,8 @@ static void form_residual(const hr2di_krylov_system *system, const double *b, co
   for (size_t k = 0; k < system->size * system->bands; k++) r[k] = b[k] - r[k];
 }
 
-enum { FIELDS = 5, SCALARS = 7 };
+/* Fields that conjugate gradients and BiCGSTAB work with. */
+enum { SYMMETRIC_FIELDS = 3, FIELDS = 5, SCALARS = 7 };
 
 typedef struct state {
   const hr2di_krylov_system *system;
@@ -196,12 +197,13 @@ static hr2d_status stabilised_gradients(state *s, const double *b) {
 hr2d_status hr2di_krylov(const hr2di_krylov_system *system, const double *b, double *y,
                          double *residual) {
   state s = {.system = system, .y = y};
-  const size_t field = system->size * system->bands;
+  const size_t field = system->size * system->bands,
+               fields = system->symmetric ? SYMMETRIC_FIELDS : FIELDS;
   double *space =
-      hr2di_alloc_zero(system->alloc, FIELDS * field + SCALARS * system->bands, sizeof *space);
+      hr2di_alloc_zero(system->alloc, fields * field + SCALARS * system->bands, sizeof *space);
   if (!space) return HR2D_ENOMEM;
-  for (size_t k = 0; k < FIELDS; k++) s.field[k] = space + k * field;
-  for (size_t k = 0; k < SCALARS; k++) s.scalar[k] = space + FIELDS * field + k * system->bands;
+  for (size_t k = 0; k < fields; k++) s.field[k] = space + k * field;
+  for (size_t k = 0; k < SCALARS; k++) s.scalar[k] = space + fields * field + k * system->bands;
   const hr2d_status status =
       system->symmetric ? conjugate_gradients(&s, b) : stabilised_gradients(&s, b);
   *residual = s.residual;

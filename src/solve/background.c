@@ -117,12 +117,11 @@ static hr2d_status take_all_backs(hr2di_transport *t, const unsigned char *sees)
    of memory. */
 static double *irradiance_of_one(hr2di_transport *t,
                                  void (*apply)(hr2di_transport *, const double *, double *)) {
-  const size_t field = t->leaves * t->width;
+  const size_t field = t->leaves * t->order;
   double *unit = hr2di_alloc_zero(&t->alloc, field, sizeof *unit);
   double *arrives = unit ? hr2di_alloc(&t->alloc, field, sizeof *arrives) : NULL;
   if (arrives) {
-    for (size_t k = 0; k < t->leaves; k++)
-      for (size_t b = 0; b < t->bands; b++) unit[k * t->width + b] = 1;
+    for (size_t k = 0; k < t->leaves; k++) unit[k * t->order] = 1;
     apply(t, unit, arrives);
   }
   hr2di_alloc_free(&t->alloc, unit);
@@ -137,7 +136,7 @@ static hr2d_status take_rows(hr2di_transport *t) {
     const int lit =
         hr2di_scene_lit(t->hierarchy->scene, t->hierarchy->element[t->leaf[k]].patch);
     for (size_t l = 0; l < t->order && lit; l++)
-      t->sky[k * t->order + l] = (l == 0) - row[k * t->width + l * t->bands];
+      t->sky[k * t->order + l] = (l == 0) - row[k * t->order + l];
   }
   hr2di_alloc_free(&t->alloc, row);
   return t->failed ? t->failed : hr2di_watch_work(t->watch, t->leaves / 4);
@@ -205,8 +204,8 @@ static hr2d_status clear_unseen(hr2di_transport *t, double *const off[HR2DI_TAIL
   hr2d_status status = HR2D_OK;
   hr2di_rule_init(&rule, t->order + 6);
   for (size_t k = 0; k < t->leaves && !status; k++) {
-    const double last = fabs(off[HR2DI_CHECK_LAST][k * t->width]),
-                 part = fabs(off[HR2DI_CHECK_PART][k * t->width]);
+    const double last = fabs(off[HR2DI_CHECK_LAST][k * t->order]),
+                 part = fabs(off[HR2DI_CHECK_PART][k * t->order]);
     double *sky = t->sky + k * t->order;
     int sees = sky[0] > last;
     if (sees && sky[0] <= HR2DI_TAIL_BOUND * fmax(last, part) &&

@@ -31,7 +31,7 @@ typedef struct rows {
   unsigned char *closed; /* per patch */
   hr2di_sum *defect;     /* per patch */
   uint32_t *number;      /* of each leaf among the leaves */
-  double *scratch;       /* leaves × width: B = 1 */
+  double *scratch;       /* leaves × order: B = 1 */
   double *row;           /* its irradiance over distant links */
   double *all;           /* its irradiance over all links */
   double *exact;         /* leaves × order: Σ F(x → j) */
@@ -151,7 +151,7 @@ static void find_closed_by_rows(rows *r, hr2di_transport *t) {
   const double none = 10 * t->roots->accuracy;
   hr2di_transport_pull(t, r->all);
   for (size_t k = 0; k < t->hierarchy->scene->patches; k++)
-    r->closed[k] = fabs(1 - t->up[k * t->width]) <= none;
+    r->closed[k] = fabs(1 - t->up[k * t->order]) <= none;
 }
 
 /* Row sums of links and form factors have a relative error of some roundings.  Where a
@@ -186,7 +186,7 @@ static void close_rows(rows *r, hr2di_transport *t, double *closure) {
     hr2di_basis_at(&r->basis, r->product.at[q], r->product_phi[q]);
   for (size_t k = 0; k < t->leaves; k++) {
     r->number[t->leaf[k]] = (uint32_t)k;
-    for (size_t b = 0; b < t->bands; b++) r->scratch[k * t->width + b] = 1;
+    r->scratch[k * t->order] = 1;
   }
   hr2di_transport_apply_part(t, HR2DI_ALL_LINKS, r->scratch, r->all);
   if (t->failed) return;
@@ -208,10 +208,10 @@ static void close_rows(rows *r, hr2di_transport *t, double *closure) {
     t->failed = hr2di_watch_work(t->watch, 1 + r->product.points * t->order * t->order / 32);
     if (t->failed) return;
     const int closed = r->closed[t->hierarchy->element[t->leaf[k]].patch];
-    const double *row = (closed ? r->all : r->row) + k * t->width;
+    const double *row = (closed ? r->all : r->row) + k * t->order;
     double *missing = r->exact + k * t->order;
     if (closed) missing[0] = 1;
-    for (size_t l = 0; l < t->order; l++) missing[l] -= row[l * t->bands];
+    for (size_t l = 0; l < t->order; l++) missing[l] -= row[l];
     if (!closed) clear_noise(r, row, missing);
     multiply(r, missing, closure + k * t->order * t->order);
   }
@@ -224,9 +224,9 @@ hr2d_status hr2di_closure_set_order_p(hr2di_transport *t) {
   hr2di_rule_init(&r.rule, t->order + MORE_POINTS);
   hr2di_rule_init(&r.product, (3 * t->order) / 2);
   r.number = hr2di_alloc(alloc, t->elements, sizeof *r.number);
-  r.scratch = hr2di_alloc_zero(alloc, t->leaves * t->width, sizeof *r.scratch);
-  r.row = hr2di_alloc(alloc, t->leaves * t->width, sizeof *r.row);
-  r.all = hr2di_alloc(alloc, t->leaves * t->width, sizeof *r.all);
+  r.scratch = hr2di_alloc_zero(alloc, t->leaves * t->order, sizeof *r.scratch);
+  r.row = hr2di_alloc(alloc, t->leaves * t->order, sizeof *r.row);
+  r.all = hr2di_alloc(alloc, t->leaves * t->order, sizeof *r.all);
   r.closed = hr2di_alloc(alloc, t->hierarchy->scene->patches, 1);
   r.defect = hr2di_alloc(alloc, t->hierarchy->scene->patches, sizeof *r.defect);
   r.exact = hr2di_alloc_zero(alloc, t->leaves * t->order, sizeof *r.exact);

@@ -74,16 +74,15 @@ static hr2d_status make_factors(hr2di_transport *t, const hr2di_row_sums *rows, 
 
 /* What roundings leave of σ − K·1 is added on the diagonal. */
 static hr2d_status set_rest(hr2di_transport *t, const hr2di_row_sums *rows) {
-  const size_t field = t->leaves * t->bands;
   double *closure = hr2di_alloc(&t->alloc, t->leaves, sizeof *closure);
-  double *unit = hr2di_alloc(&t->alloc, field, sizeof *unit);
-  double *row = hr2di_alloc(&t->alloc, field, sizeof *row);
+  double *unit = hr2di_alloc(&t->alloc, t->leaves, sizeof *unit);
+  double *row = hr2di_alloc(&t->alloc, t->leaves, sizeof *row);
   const int room = closure && unit && row;
   if (room) {
-    for (size_t k = 0; k < field; k++) unit[k] = 1;
+    for (size_t k = 0; k < t->leaves; k++) unit[k] = 1;
     hr2di_transport_apply(t, unit, row);
     for (size_t k = 0; k < t->leaves && !t->failed; k++)
-      closure[k] = rows->front[t->leaf[k]] - row[k * t->bands];
+      closure[k] = rows->front[t->leaf[k]] - row[k];
     t->closure = closure;
   } else {
     hr2di_alloc_free(&t->alloc, closure);

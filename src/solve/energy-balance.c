@@ -23,21 +23,22 @@ static double rho_of(const hr2di_transport *t, size_t leaf, size_t band) {
   return hr2d_scene_reflectance(t->scene, leaf_of(t, leaf)->patch, band);
 }
 
+/* 1 − K1, in one band. */
 static hr2d_status set_missing(hr2di_balance *b, hr2di_transport *t) {
-  const size_t field = t->leaves * t->width;
+  const size_t field = t->leaves * t->order, bands = t->bands;
   double *unit = hr2di_alloc_zero(&t->alloc, 2 * field, sizeof *unit);
   if (!unit) return HR2D_ENOMEM;
   double *const row = unit + field;
-  for (size_t k = 0; k < t->leaves; k++)
-    for (size_t band = 0; band < t->bands; band++) unit[k * t->width + band] = 1;
+  for (size_t k = 0; k < t->leaves; k++) unit[k * t->order] = 1;
+  hr2di_transport_set_bands(t, 1);
   if (t->rows) {
     memcpy(row, t->rows, field * sizeof *row);
     hr2di_transport_close(t, unit, row);
   } else {
     hr2di_transport_apply(t, unit, row);
   }
-  for (size_t k = 0; k < t->leaves * t->order && !t->failed; k++)
-    b->missing[k] = unit[k * t->bands] - row[k * t->bands];
+  hr2di_transport_set_bands(t, bands);
+  for (size_t k = 0; k < field && !t->failed; k++) b->missing[k] = unit[k] - row[k];
   hr2di_alloc_free(&t->alloc, unit);
   return t->failed;
 }

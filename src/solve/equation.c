@@ -167,8 +167,10 @@ hr2d_status hr2di_equation_init(hr2di_equation *s, hr2d_linkset *links, const hr
   status = hr2di_transport_init(t, s->links, how->order, s->options.threads, &s->watch);
   t->scene = scene;
   if (how->roots) t->roots = how->roots;
+  hr2di_transport_set_bands(t, 1);
   if (!status) status = integrate_rows(s);
   if (!status && t->closure) status = hr2di_closure_set_mean(t);
+  hr2di_transport_set_bands(t, links->hierarchy->scene->bands);
   if (!status && t->closure && !links->directed) status = hr2di_balance_init(&s->balance, t);
   hr2di_alloc_free(&t->alloc, t->rows);
   t->rows = NULL;

@@ -41,7 +41,7 @@ typedef struct hr2di_transport {
   double *mean;       /* per element: of the diagonal of `closure`; NULL for none */
   unsigned char *closed; /* per patch: closure makes row sums 1; NULL at order 1, or without */
   int all_closed;        /* that is so for all patches */
-  double *rows; /* leaves × width: K 1 without closure; NULL: nobody has gathered it */
+  double *rows; /* leaves × order: K 1 without closure; NULL: nobody has gathered it */
   int check; /* links count with what this check of the extrapolation leaves, less 1; 0: as they
                 are */
 } hr2di_transport;
@@ -62,6 +62,13 @@ void hr2di_transport_clear(hr2di_transport *t);
    those of their leading part, or fewer, which are copied to memory of its own.  HR2D_OK,
    HR2D_ENOMEM or the status of the watch. */
 hr2d_status hr2di_transport_lead(hr2di_transport *t, const hr2di_link_blocks *blocks);
+
+/* Fields have so many bands from now on, no more than those of the scene: rows are the same in
+   all, and are gathered in one. */
+static inline void hr2di_transport_set_bands(hr2di_transport *t, size_t bands) {
+  t->bands = t->trees.bands = bands;
+  t->width = t->order * bands;
+}
 
 /* Why its results must not be used, or HR2D_OK. */
 static inline hr2d_status hr2di_transport_status(const hr2di_transport *t) {
