@@ -2,7 +2,8 @@
 BENCHES = bench/bench-exchange-area bench/bench-refine bench/bench-l1 bench/bench-visibility \
 	bench/bench-growth bench/bench-shaded-links bench/bench-blocks \
 	bench/bench-accuracy bench/bench-budgets bench/bench-polls bench/bench-prediction \
-	bench/bench-fibres bench/bench-solves bench/bench-threads bench/bench-triangulation bench/bench-field
+	bench/bench-fibres bench/bench-solves bench/bench-threads bench/bench-triangulation bench/bench-field \
+	bench/bench-bands
 EXTRA_PROGRAMS += $(BENCHES)
 CLEANFILES += $(BENCHES)
 bench_bench_exchange_area_SOURCES = bench/bench-exchange-area.c bench/timing.h
@@ -23,6 +24,9 @@ bench_bench_blocks_SOURCES = bench/bench-blocks.c bench/bars.c bench/bars.h benc
 	tests/support/random.c tests/support/random.h tests/support/visibility-cases.h
 bench_bench_blocks_CPPFLAGS = $(AM_CPPFLAGS)
 bench_bench_blocks_LDADD = libhr2d-core.la $(THREADS_LIBS) -lm
+bench_bench_bands_SOURCES = bench/bench-bands.c $(PLANS)
+bench_bench_bands_CPPFLAGS = $(AM_CPPFLAGS) -DBENCH_SCENES='"$(abs_top_srcdir)/examples/scenes"'
+bench_bench_bands_LDADD = libhr2d-core.la $(THREADS_LIBS) -lm
 bench_bench_field_SOURCES = bench/bench-field.c bench/plain.c bench/plain.h $(PLANS)
 bench_bench_field_CPPFLAGS = $(AM_CPPFLAGS) -DBENCH_SCENES='"$(abs_top_srcdir)/examples/scenes"'
 bench_bench_field_LDADD = libhr2d-core.la $(THREADS_LIBS) -lm
