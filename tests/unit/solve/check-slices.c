@@ -8,7 +8,7 @@
 #include "support/slow-scenes.h"
 #include "support/support.h"
 
-enum { PATCHES = 60, ORDER = 9 };
+enum { PATCHES = 60, ORDER = 9, MOST_BANDS = 7 };
 
 static test_links make(size_t bands, int directed) {
   hr2d_scene *from = NULL, *scene = NULL;
@@ -17,10 +17,10 @@ static test_links make(size_t bands, int directed) {
   ck_assert_int_eq(hr2d_scene_create(NULL, &scene), HR2D_OK);
   for (size_t k = 0; k < hr2d_scene_patches(from); k++) {
     const hr2d_segment s = hr2d_scene_segment(from, k);
-    double emission[3], rho[3];
+    double emission[MOST_BANDS], rho[MOST_BANDS];
     for (size_t b = 0; b < bands; b++) {
       emission[b] = (double)((k + b) % 5 == 0);
-      rho[b] = 0.3 + 0.1 * (double)b;
+      rho[b] = 0.3 + 0.1 * (double)(b % 5);
     }
     const hr2d_patch patch = {.a = s.a,
                               .b = s.b,
@@ -53,7 +53,8 @@ static void check_slices(const test_links *t, unsigned threads) {
 }
 
 START_TEST(threads_change_no_bit) {
-  const size_t bands = _i / 2 ? 3 : 1;
+  static const size_t numbers_of_bands[] = {1, 3, MOST_BANDS};
+  const size_t bands = numbers_of_bands[_i / 2];
   test_links t = make(bands, _i % 2);
   static const unsigned threads[] = {1, 2, 3, 40};
   double *expected = NULL;
@@ -91,5 +92,5 @@ START_TEST(threads_change_no_bit) {
 END_TEST
 
 TEST_SUITE("slices") {
-  REPEAT_TESTS(4, "gather", threads_change_no_bit);
+  REPEAT_TESTS(6, "gather", threads_change_no_bit);
 }
