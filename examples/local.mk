@@ -2,7 +2,7 @@
 # print with NAME.expected.
 EXAMPLES = examples/adiabatic-walls examples/conduction examples/digits \
 	examples/fibre-bed examples/frame-cavity examples/furnace-section examples/own-oracle \
-	examples/paint-oven \
+	examples/heating-furnace examples/paint-oven \
 	examples/resume examples/room-climate examples/shares examples/solar-panels \
 	examples/solar-year examples/street-canyon examples/streets examples/together examples/tour
 check_PROGRAMS += $(EXAMPLES)
@@ -18,6 +18,8 @@ examples_frame_cavity_CPPFLAGS = $(PUBLIC_CPPFLAGS)
 examples_frame_cavity_LDADD = libhr2d.la -lm
 examples_furnace_section_CPPFLAGS = $(PUBLIC_CPPFLAGS)
 examples_furnace_section_LDADD = libhr2d.la -lm
+examples_heating_furnace_CPPFLAGS = $(PUBLIC_CPPFLAGS)
+examples_heating_furnace_LDADD = libhr2d.la -lm
 examples_own_oracle_CPPFLAGS = $(PUBLIC_CPPFLAGS)
 examples_own_oracle_LDADD = libhr2d.la -lm
 examples_paint_oven_CPPFLAGS = $(PUBLIC_CPPFLAGS)

@@ -9,6 +9,7 @@ EXTRA_DIST += \
 	python/hr2d/_geojson.py \
 	python/hr2d/_scene.py \
 	python/hr2d/_solution.py \
+	python/hr2d/_operator.py \
 	python/hr2d/_solve.py \
 	python/hr2d/_strategy.py \
 	python/hr2d/py.typed \
@@ -22,5 +23,6 @@ EXTRA_DIST += \
 	python/tests/test_draw.py \
 	python/tests/test_drawings.py \
 	python/tests/test_one_value.py python/tests/test_scene.py \
+	python/tests/test_operator.py \
 	python/tests/test_solve.py \
 	python/tests/test_thermal.py

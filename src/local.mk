@@ -94,6 +94,7 @@ libhr2d_core_la_SOURCES = \
 	src/scene/reading-notes.c src/scene/reading-notes.h \
 	src/scene/scene.c \
 	src/scene/scene-impl.h \
+	src/scene/relit-scene.c src/scene/relit-scene.h \
 	src/scene/frozen-temperatures.c src/scene/frozen-temperatures.h \
 	src/scene/side-layers.c src/scene/side-layers.h \
 	src/scene/side-parts.c src/scene/side-parts.h \
@@ -318,6 +319,12 @@ libhr2d_core_la_SOURCES = \
 	src/accuracy/strategy.c src/accuracy/strategy.h \
 	src/accuracy/target.c src/accuracy/target.h \
 	src/accuracy/temperature.c \
+	src/operator/equations.c \
+	src/operator/gradient.c \
+	src/operator/light.c \
+	src/operator/operator.c \
+	src/operator/operator-impl.h \
+	src/operator/response.c \
 	src/state/byte-stream.c src/state/byte-stream.h \
 	src/state/scene-format.h \
 	src/state/scene-read.c \

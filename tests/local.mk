@@ -137,6 +137,8 @@ SUITES = \
 	tests/unit/visibility/check-point-beams.c \
 	tests/unit/visibility/check-point-view.c \
 	tests/unit/visibility/check-point-view-walls.c \
+	tests/unit/operator/check-operator.c \
+	tests/unit/operator/check-gradients.c \
 	tests/unit/state/check-state.c \
 	tests/unit/state/check-state-scene.c \
 	tests/unit/refine/check-study.c \

@@ -32,6 +32,10 @@
  * - daylight.h: hr2d_scene_set_sun() lights the scene by a sun.
  * - symmetry.h: hr2d_scene_add_mirror() and hr2d_scene_set_period() repeat the scene.
  *
+ * More light:
+ * - operator.h: hr2d_operator_solve() solves for other light on the same geometry, with what
+ *   was found out for the first one; responses and gradients.
+ *
  * More questions:
  * - enclosure.h: hr2d_enclose() gives lower and upper ends of averages that hold for certain.
  * - visibility.h: exchange areas with occluders, of two segments and of all patches, and the
@@ -44,7 +48,7 @@
  *
  * Unstable interface, for user-written solvers and distributions; it may change in any release
  * (doc/compatibility.md):
- * - operator.h: rows, blocks and row sums of the transport operator.
+ * - transport.h: rows, blocks and row sums of the transport operator.
  * - clusters.h: far-field exchange between clusters of patches.
  * - share.h: several processes that share a solve; claims on pairs.
  *
@@ -106,6 +110,7 @@
 #include <hr2d/linkset.h>
 #include <hr2d/lint.h>
 #include <hr2d/memory.h>
+#include <hr2d/operator.h>
 #include <hr2d/options.h>
 #include <hr2d/oracle.h>
 #include <hr2d/policy.h>
@@ -123,7 +128,7 @@
 
 /* Unstable interface. */
 #include <hr2d/clusters.h>
-#include <hr2d/operator.h>
 #include <hr2d/share.h>
+#include <hr2d/transport.h>
 
 #endif

@@ -1,181 +1,201 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /**
  * @file operator.h
- * @brief Entries, blocks and row sums of the transport operator, for user-written solvers.
+ * @brief The transport operator of a scene, kept: other light, responses and gradients.
  *
- * @defgroup operator Operator
- * Entries, blocks and row sums of the transport operator, for user-written solvers.
+ * @defgroup operator Operator: other light on the same geometry
+ * The transport operator of a scene, kept: other light, responses and gradients.
  *
- * @warning Unstable interface: for user-written solvers and distributions. It may change in
- * any release, see doc/compatibility.md.
+ * hr2d_solve_to() finds elements, links and their coefficients, and all that takes most of the
+ * time. None of it depends on emission, and little on reflectance. An operator keeps it. Then
+ * other emissions, reflectances, temperatures, and other light from outside take some gathers:
  *
- * The operator K of B = E + ρKB comes in three forms: as the exchange areas of patches
- * (hr2d_exchange_rows_create()), as links, whose blocks hr2d_blocks() gives at an order above
- * 1, and over clusters of patches (clusters.h). hr2d_leaf_sums() has its exact row sums.
- * hr2d_solution_adopt() makes a solution of the B that a user-written solver finds.
+ *     hr2d_operator *op;
+ *     hr2d_status status = hr2d_operator_create(scene, NULL, &op, NULL);
+ *     hr2d_light light = HR2D_LIGHT_INIT;
+ *     light.emission.value = emission;
+ *     hr2d_solution *solution = NULL;
+ *     if (!status) status = hr2d_operator_solve(op, &light, NULL, &solution, NULL);
+ *     hr2d_solution_destroy(solution);
+ *     hr2d_operator_destroy(op);
+ *
+ * **Elements** end at all visibility events, whatever light they are for, and are divided for
+ * the light that the scene has. Other light may want them divided elsewhere: the account of
+ * each solve measures the errors of that light on these elements, and says if they are above
+ * the target. So let the scene have light, or several bands of light, like what will come.
+ *
+ * **Threads.** One thread at a time may use an operator; its solutions may be read by other
+ * ones at the same time.
  * @{
  */
 #ifndef HR2D_OPERATOR_H
 #define HR2D_OPERATOR_H
 
-#include <hr2d/hierarchy.h>
-#include <hr2d/linkset.h>
+#include <hr2d/accuracy.h>
 #include <hr2d/scene.h>
 #include <hr2d/solve.h>
 #include <hr2d/status.h>
-#include <hr2d/visibility.h>
 #include <stddef.h>
-#include <stdint.h>
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-/** The exchange areas that are not 0, as compressed rows; opaque. */
-typedef struct hr2d_exchange_rows hr2d_exchange_rows;
+/** The kept operator; opaque. */
+typedef struct hr2d_operator hr2d_operator;
+
+/** An array of up to three indices: of lights, of patches or pieces of the sky, and of bands.
+ */
+typedef struct hr2d_values {
+  const double *value; /**< NULL: all values are those of the scene */
+  ptrdiff_t stride[3]; /**< from one light, patch or piece, and band to the next, in doubles; 0
+                            repeats a value. All three 0: packed, lights × patches × bands */
+} hr2d_values;
+
+/** One light or several. Start from #HR2D_LIGHT_INIT: that of the scene. */
+typedef struct hr2d_light {
+  size_t struct_size;      /**< so that the struct can grow */
+  size_t count;            /**< k, lights that are solved for at once; 0 stands for 1 */
+  hr2d_values emission;    /**< k × patches × bands: E, at least 0. NaN, and nothing else, for
+                                patches of given temperature or flux */
+  hr2d_values reflectance; /**< k × patches × bands: ρ, from 0 to 1; of patches of given
+                                temperature it is 1 − ε. NaN, and nothing else, for patches of
+                                given flux */
+  hr2d_values temperature; /**< k × patches: kelvins of patches of given temperature. NaN, and
+                                nothing else, for all others. An emissivity that depends on the
+                                temperature stays as it is in the scene */
+  hr2d_values flux; /**< k × patches: net fluxes of patches of given flux. NaN, and nothing
+                         else, for all others */
+  hr2d_values background; /**< k × 1 × bands: radiosity of the surroundings; above 0 only if the
+                               scene has an even background, or is forced to look for one */
+  hr2d_values sun;        /**< k × 1 × bands: irradiance of the suns, whose directions stay */
+  hr2d_values sky;        /**< k × pieces × bands: radiosity of the pieces of the sky */
+  int no_error;           /**< not 0: the account is left out; its errors are infinite */
+} hr2d_light;
+
+/** The light of the scene. */
+#define HR2D_LIGHT_INIT                                                                        \
+  {                                                                                            \
+    sizeof(hr2d_light), 0, {NULL, {0, 0, 0}}, {NULL, {0, 0, 0}}, {NULL, {0, 0, 0}},            \
+        {NULL, {0, 0, 0}}, {NULL, {0, 0, 0}}, {NULL, {0, 0, 0}}, {NULL, {0, 0, 0}}, 0          \
+  }
 
 /**
- * The exchange areas of all pairs of patches that see each other.
- * @param scene    committed; need not outlive the rows
- * @param options  NULL for the defaults
- * @param rows     receives the rows; the caller destroys them with
- *                 hr2d_exchange_rows_destroy(); unchanged on failure
- * @param counts   receives the work; may be NULL
- * @return as hr2d_exchange_matrix()
+ * Does what #HR2D_LIGHT_INIT does, for languages without macros: sets all bytes to 0, and
+ * `struct_size`.
+ * @param light  the struct
+ * @param size   its size as the caller knows it; may differ from that of the library
+ */
+HR2D_API void hr2d_light_init(hr2d_light *light, size_t size);
+
+/**
+ * Makes the operator of a scene, for a target error of its own light.
  *
- * The entries are those of hr2d_exchange_matrix(), bit for bit, without zeros. They take 12
- * bytes each, and 18 while the call runs. Cost as there, but without the matrix: it grows with
- * the pairs that see each other. The hooks of the scene provide the memory.
- */
-HR2D_API hr2d_status hr2d_exchange_rows_create(const hr2d_scene *scene,
-                                               const hr2d_matrix_options *options,
-                                               hr2d_exchange_rows **rows,
-                                               hr2d_matrix_counts *counts);
-
-/** Frees the rows, and the arrays that the functions below returned; NULL is allowed. */
-HR2D_API void hr2d_exchange_rows_destroy(hr2d_exchange_rows *rows);
-
-/** The number of entries: twice the number of pairs that see each other. */
-HR2D_API uint64_t hr2d_exchange_rows_entries(const hr2d_exchange_rows *rows);
-
-/**
- * Where the rows start: the entries of row i are [start[i], start[i + 1]).
- * @return n + 1 items, which belong to the rows
- */
-HR2D_API const uint64_t *hr2d_exchange_rows_start(const hr2d_exchange_rows *rows);
-
-/**
- * The columns of the entries: the patches that patch i sees, in ascending order.
- * @return an item per entry; belongs to the rows
- */
-HR2D_API const uint32_t *hr2d_exchange_rows_column(const hr2d_exchange_rows *rows);
-
-/**
- * The exchange areas of the entries in scene lengths, all above 0.
- * @return an item per entry; belongs to the rows
- */
-HR2D_API const double *hr2d_exchange_rows_area(const hr2d_exchange_rows *rows);
-
-/** A row, for hr2d_exchange_rows_visit(). */
-typedef struct hr2d_exchange_row {
-  size_t struct_size;     /**< its size as the library knows it */
-  size_t patch;           /**< i */
-  size_t count;           /**< how many patches it sees */
-  const uint32_t *column; /**< these patches, in ascending order */
-  const double *area;     /**< their exchange areas with i in scene lengths, all above 0 */
-} hr2d_exchange_row;
-
-/**
- * Takes a row. Its arrays are valid until the function returns.
- * @param ctx  as given to hr2d_exchange_rows_visit()
- * @param row  the row
- * @return HR2D_OK, or a status that ends the call
- */
-typedef hr2d_status (*hr2d_exchange_row_fn)(void *ctx, const hr2d_exchange_row *row);
-
-/**
- * Shows all rows to a visitor, one after the other, and keeps none.
- * @param scene    committed
- * @param options  NULL for the defaults
- * @param visit    called once for each patch, in the calling thread. The order is that of walls
- *                 in the plane, and the same for each number of threads
- * @param ctx      given to `visit`
- * @param counts   receives the work; may be NULL
- * @retval other   the status of the visitor; otherwise as hr2d_exchange_matrix()
+ * @param scene    committed; must outlive the operator and its solutions
+ * @param target   NULL for the defaults. `error`, `norm`, `floor` and `important` hold for all
+ *                 solves, so do `threads` and `progress`; budgets are for this call. `share`
+ *                 is NULL, or one alone
+ * @param op       receives the operator, also with HR2D_EACCURACY if there are elements of
+ *                 known error, otherwise NULL; the caller destroys it
+ * @param account  receives the errors and the work for the light of the scene; may be NULL
+ * @retval HR2D_EUNSUPPORTED  temperatures of patches of given flux would have to be found in
+ *                            several bands; or there are several shares
+ * @retval other              as hr2d_solve_to()
  *
- * The rows have the entries of hr2d_exchange_rows_create(), which may differ by roundings where
- * ends of patches are rounded points of a wall. At most some 1100 rows per thread are in memory
- * at once. Each pair is found from both of its ends, so that the call takes up to twice the
- * time of hr2d_exchange_rows_create().
+ * Cost: that of hr2d_solve_to(), and up to twice the time for row sums. Memory: that of the
+ * account's blocks, (p + 2)² numbers for each link.
  */
-HR2D_API hr2d_status hr2d_exchange_rows_visit(const hr2d_scene *scene,
-                                              const hr2d_matrix_options *options,
-                                              hr2d_exchange_row_fn visit, void *ctx,
-                                              hr2d_matrix_counts *counts);
+HR2D_API hr2d_status hr2d_operator_create(const hr2d_scene *scene, const hr2d_target *target,
+                                          hr2d_operator **op, hr2d_account *account);
+
+/** Frees an operator; NULL is allowed. Its solutions stay. */
+HR2D_API void hr2d_operator_destroy(hr2d_operator *op);
+
+/** What the last call on an operator that failed has to say; "" if none has. Owned by it. */
+HR2D_API const char *hr2d_operator_message(const hr2d_operator *op);
 
 /**
- * The row sums of the leaves of a hierarchy: the sum of the view factors from each leaf to all
- * patches, and the sum of those to all backs of patches. The rest up to 1 is the background:
- * the sky view factor of the leaf.
- * @param hierarchy  a hierarchy
- * @param row_from   the first patch whose leaves are asked about
- * @param row_to     the one after the last; 0: all patches from `row_from` on
- * @param front      one per element, or NULL: receives Σ A_ij F_ij / A_i over patches, set for
- *                   leaves of these patches
- * @param back       the same over backs, or NULL, which is cheaper
- * @retval HR2D_OK      success
- * @retval HR2D_ENOMEM  an allocation failed
- * @retval HR2D_EINVAL  there are no such rows
- * @retval other        the status of hr2d_scene_set_progress()
+ * Solves for other light.
  *
- * Exact up to roundings, with any occluders, and without links. Patches that no light reaches
- * count like all others. Thread-safe as long as nothing changes the hierarchy. Cost: the beams
- * of these patches, and the parts of them that leaves have. Memory: 16 bytes per element and
- * sum.
+ * @param op        the operator
+ * @param light     NULL for the light of the scene. Only read, and only during the call
+ * @param start     a solution of this operator with as many lights, for light that is like this
+ *                  one: fewer gathers are needed then. NULL for none
+ * @param solution  receives the solution, otherwise NULL; the caller destroys it, before or
+ *                  after the operator. Band b of light m is its band m · bands + b. Its
+ *                  emission and reflectance are those of `light`
+ * @param account   receives its errors, the largest over all lights, and the work; may be NULL
+ * @retval HR2D_OK           the target is reached, or there is no account
+ * @retval HR2D_EACCURACY    the elements do not suffice for this light, see
+ *                           hr2d_account::reason. The solution and its errors are good; for
+ *                           smaller ones make an operator of a scene with such light
+ * @retval HR2D_EINVAL       a value is not valid; see hr2d_operator_message()
+ * @retval other             as hr2d_solve()
+ *
+ * The errors are those on these elements, as for hr2d_solve_to(). Cost: O(L) for each of a
+ * dozen gathers, and as many with two coefficients more for the account. Where the number of
+ * lights or the suns change, light from outside is made anew.
  */
-HR2D_API hr2d_status hr2d_leaf_sums(const hr2d_hierarchy *hierarchy, size_t row_from,
-                                    size_t row_to, double *front, double *back);
+HR2D_API hr2d_status hr2d_operator_solve(hr2d_operator *op, const hr2d_light *light,
+                                         const hr2d_solution *start, hr2d_solution **solution,
+                                         hr2d_account *account);
 
 /**
- * The Galerkin blocks of links: C_lm = ∫∫ G V φ_l(x) φ_m(y) dy dx, a length, with the φ of
- * hr2d_hierarchy_pull(). A link adds Σ_m C_lm B_m / A to H_l of its first element, and Σ_l
- * C_lm B_l / A' to H_m of its second one if it carries both directions.
- * @param hierarchy  of the links; its order p is that of the blocks
- * @param link       `count` links, as from hr2d_linkset_get() or hr2d_refine_visit(), of
- * elements of different patches
- * @param count      the number of links
- * @param block      receives p × p numbers per link, row l for the first element
- * @retval HR2D_OK      success
- * @retval HR2D_ENOMEM  an allocation failed
- * @retval HR2D_EINVAL  there is no such element
- * @retval other        the status of hr2d_scene_set_progress()
+ * The responses of averages of B to emissions: ∂B_i/∂E_j.
  *
- * Exact but for roundings, also past occluders; where elements are far from each other, as
- * exact as the order needs. C_00 of such a pair may differ from the exchange area in its last
- * digits. Thread-safe as long as nothing changes the hierarchy. Cost: O(p²) and more per link,
- * some 0.1 µs to 10 µs; pass many links in one call.
+ * @param op        the operator
+ * @param light     whose reflectances count; its `count` is at most 1. NULL: those of the scene
+ * @param first     the first column j
+ * @param columns   how many
+ * @param response  receives patches × columns × bands numbers
+ * @return as hr2d_operator_solve(), or HR2D_EINVAL for columns that there are not
+ *
+ * Averages without closure's share of a patch's own light: B = E + ρKB by superposition. Cost:
+ * that of as many solves, several at once.
  */
-HR2D_API hr2d_status hr2d_blocks(const hr2d_hierarchy *hierarchy, const hr2d_link *link,
-                                 size_t count, double *block);
+HR2D_API hr2d_status hr2d_operator_response(hr2d_operator *op, const hr2d_light *light,
+                                            size_t first, size_t columns, double *response);
+
+/** Derivatives of a functional. Members may be NULL. */
+typedef struct hr2d_gradient {
+  size_t struct_size;  /**< so that the struct can grow */
+  double *emission;    /**< receives patches × bands: by E of a patch */
+  double *reflectance; /**< receives patches × bands: by ρ of a patch; of patches of given
+                            temperature E = (1 − ρ)σT⁴ changes, too; NaN for those of given
+                            flux */
+  double *temperature; /**< receives patches: by T of a patch of given temperature; NaN for all
+                            others */
+} hr2d_gradient;
+
+/** Nothing is asked for. */
+#define HR2D_GRADIENT_INIT                                                                     \
+  { sizeof(hr2d_gradient), NULL, NULL, NULL }
 
 /**
- * Makes a solution of given values: those of a user-written solver, of another process, or of
- * one moment of a transient. Averages, points, powers, fields and pictures then work on them.
- * @param links     filled by hr2d_refine(); must outlive the solution
- * @param options   NULL for the defaults; `tolerance`, `max_iterations` and `start` do not
- * matter
- * @param field     B as for hr2d_hierarchy_pull(): the values of leaves are read, at the order
- * of the hierarchy and for all bands of the scene; they need not solve the equation
- * @param solution  receives the solution, with the irradiance of B; the caller destroys it
- * @retval HR2D_EINVAL  as hr2d_solve(), or a value is not finite
- * @retval HR2D_EUNSUPPORTED  the scene has several bands and patches of given flux (thermal.h):
- *                      `field` does not have their temperatures
- * @retval other        as hr2d_solve(), but for HR2D_ENO_SOLUTION and HR2D_ENOT_CONVERGED
- *
- * hr2d_solution_residual() gives the residual of this B in the equation. Cost: one gather.
+ * Does what #HR2D_GRADIENT_INIT does, for languages without macros.
+ * @param gradient  the struct
+ * @param size      its size as the caller knows it; may differ from that of the library
  */
-HR2D_API hr2d_status hr2d_solution_adopt(hr2d_linkset *links, const hr2d_solve_options *options,
-                                         const double *field, hr2d_solution **solution);
+HR2D_API void hr2d_gradient_init(hr2d_gradient *gradient, size_t size);
+
+/**
+ * The gradient of J = Σ v_kb B_kb + Σ w_kb H_kb, with averages B and H of patches, with respect
+ * to all emissions, reflectances and temperatures.
+ *
+ * K is self-adjoint. So with X = (ρv + w)/A + ρKX and u = v/A + KX, δJ = ∫u(δE + Hδρ).
+ * @param op        the operator
+ * @param solution  of one light, of this operator
+ * @param v         1 × patches × bands: weights of B; its value may be NULL: 0
+ * @param w         likewise of H
+ * @param gradient  its arrays receive the derivatives
+ * @return as hr2d_solve(), or HR2D_EINVAL
+ *
+ * The derivatives are those of the numbers that hr2d_operator_solve() gives on these elements,
+ * to the tolerance of the iteration. Cost: one solve without an account, for all of them.
+ */
+HR2D_API hr2d_status hr2d_operator_gradient(hr2d_operator *op, const hr2d_solution *solution,
+                                            const hr2d_values *v, const hr2d_values *w,
+                                            hr2d_gradient *gradient);
 
 #ifdef __cplusplus
 }

@@ -18,6 +18,7 @@ from ._errors import (AccuracyError, AccuracyWarning, CallbackError, Error, File
                       OutOfMemory, RangeError, SceneError, StateError, Stopped, Unsupported)
 from ._hr2d import ffi as _ffi
 from ._hr2d import lib as _lib
+from ._operator import Gradient, Lights, Operator
 from ._scene import Scene, SceneWarning, Snap, Sun, exchange_area, read
 from ._solution import Account, Bounded, Field, Points, Power, Solution, Temperatures
 from ._strategy import SPLIT_BOTH, SPLIT_FIRST, SPLIT_SECOND, Batch, Oracle, Policy
@@ -26,8 +27,8 @@ __version__: str = _ffi.string(_lib.hr2d_version()).decode()
 
 __all__ = [
     "Account", "AccuracyError", "AccuracyWarning", "Batch", "Bounded", "CallbackError", "Error",
-    "Field", "FileError", "FormatError", "InvalidArgument", "LimitReached", "NoSolution",
-    "NotConverged", "Oracle", "OutOfMemory", "Points", "Policy", "Power", "Progress", "RangeError",
+    "Field", "FileError", "FormatError", "Gradient", "InvalidArgument", "Lights", "LimitReached",
+    "NoSolution", "NotConverged", "Operator", "Oracle", "OutOfMemory", "Points", "Policy", "Power", "Progress", "RangeError",
     "SPLIT_BOTH", "SPLIT_FIRST", "SPLIT_SECOND", "Scene", "SceneError", "SceneWarning", "Snap",
     "Solution", "StateError", "Stopped", "Sun", "Temperatures", "Unsupported", "exchange_area",
     "read",

@@ -17,6 +17,7 @@ from ._calls import POLL, Call, ProgressFunction, keep_exception, owned, thread_
 from ._errors import SceneError, StateError
 from ._geojson import outside_of, text_of
 from ._hr2d import ffi, lib
+from ._operator import Operator
 from ._solution import Solution
 from ._strategy import OracleLike, PolicyLike
 
@@ -523,6 +524,22 @@ class Scene:
         if of_paper:
             return _solve.by_links(self, paper, limits, points, progress)
         return _solve.to_target(self, target, limits, points, progress)
+
+    def operator(self, *, error: Optional[float] = None, norm: str = "average",
+                 important: Sequence[PatchLike] = (), floor: Optional[float] = None,
+                 points: bool = False, max_elements: int = 0, max_links: int = 0,
+                 max_bytes: int = 0, threads: Any = 1,
+                 progress: Optional[ProgressFunction] = None) -> Operator:
+        """Solves for the light of the scene, and keeps what that takes for other light.
+
+        The arguments are those of solve() to a target; they hold for all light.
+        """
+        target = {"error": error, "seconds": None, "floor": floor, "norm": norm,
+                  "important": [self.index(patch) for patch in important] or None}
+        limits = {"max_elements": max_elements, "max_links": max_links, "max_bytes": max_bytes,
+                  "threads": thread_count(threads)}
+        self.commit()
+        return Operator(self, target, limits, points, progress)
 
     # Pictures
 

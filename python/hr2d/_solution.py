@@ -137,6 +137,7 @@ class Solution:
         self._raw = raw
         self._account = account
         self._told = told or (ffi.NULL, ffi.NULL)  # target and account of hr2d_solve_to()
+        self._own_light = False  # E and ρ are not those of the scene
         self._points = points  # whether a solution by links is measured at points, too
 
     def __repr__(self) -> str:
@@ -229,7 +230,7 @@ class Solution:
         with Call() as call:
             call.check(lib.hr2d_solution_gather_irradiance(self._raw, index, doubles(t), t.size,
                                                            writable(H)))
-        if self.scene._emits_as_found(index):
+        if self._own_light or self.scene._emits_as_found(index):
             B = np.empty(shape)
             with Call() as call:
                 call.check(lib.hr2d_solution_gather(self._raw, index, doubles(t), t.size,

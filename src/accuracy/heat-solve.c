@@ -346,7 +346,7 @@ hr2d_status hr2di_heat_solve(const hr2d_scene *scene, const hr2d_target *target,
   if (s.solution)
     *solution = s.solution;
   else
-    hr2di_frozen_destroy(s.frozen);
+    hr2di_relit_destroy(s.frozen);
   if (account) *account = s.account;
   hr2di_alloc_free(&scene->alloc, s.important);
   hr2di_target_clear(&s.given, scene);

@@ -215,7 +215,7 @@ static hr2d_status predict_heat(const hr2d_scene *scene, const hr2d_target *targ
   hr2di_target_clear(&used, scene);
   if (status) return status;
   status = hr2d_predict(frozen, target, prediction);
-  hr2di_frozen_destroy(frozen);
+  hr2di_relit_destroy(frozen);
   prediction->seconds *= HR2DI_CHOICE_PREDICT_HEAT;
   prediction->least_seconds *= HR2DI_CHOICE_PREDICT_HEAT;
   prediction->most_seconds *= HR2DI_CHOICE_PREDICT_HEAT;

@@ -111,10 +111,13 @@ static void note_errors(hr2di_search *s, const hr2di_error_pair *errors) {
   a->irradiance_sup = s->given.points ? errors->irradiance_sup : none;
 }
 
-/* Keeps a graded solve, with its errors, as the best one. */
+/* Keeps a graded solve, with its errors, as the best one.  Blocks of the finer operator are for
+   what is divided next, and for an operator that is kept. */
 static void keep(hr2di_search *s, hr2di_graded *answer, const hr2di_error_pair *errors) {
   hr2di_graded_clear(&s->best);
   s->best = *answer;
+  if (!s->keeps_operator && !s->best.depth)
+    hr2di_link_blocks_trim(&s->best.links->blocks, &s->best.links->alloc);
   *answer = (hr2di_graded){0};
   const hr2d_hierarchy_counts counts = hr2d_hierarchy_count(s->best.hierarchy);
   hr2d_account *a = &s->account;
@@ -208,6 +211,7 @@ hr2d_status hr2di_search_attempt(hr2di_search *s, const hr2di_resolution *finene
   status = hr2di_search_agree(s, status);
   if (!status && s->given.no_error) {
     keep(s, &answer, &unknown);
+    s->fineness = *fineness;
   } else if (!status) {
     const double error = worst_of(&errors, s->target.norm).estimate;
     if (is_better(s, error, dividing)) {

@@ -13,6 +13,7 @@ typedef struct hr2di_search {
   hr2d_target target;          /* the caller's, whose progress callback looks at the clock */
   hr2d_target given;           /* the caller's; its error is 0 for the smallest */
   double start, deadline;      /* deadline 0: none */
+  int keeps_operator;          /* the best one is to solve for other light, too */
   int out_of_time;             /* a call was ended because the time was up */
   hr2d_status progress_status; /* of the caller's progress callback */
   hr2di_survey survey;

@@ -52,7 +52,7 @@ static hr2d_status compare(const hr2d_solution *solution, const hr2d_target *tar
   hr2d_solution *reference = NULL;
   hr2d_account a;
   hr2d_status status =
-      hr2d_solve_to(hr2di_scene_origin(solution->hierarchy->scene), target, &reference, &a);
+      hr2d_solve_to(hr2di_scene_origin(hr2di_solution_scene(solution)), target, &reference, &a);
   const int best = status == HR2D_EACCURACY;
   *enough = best;
   if (reference && !isfinite(a.average.bound)) {

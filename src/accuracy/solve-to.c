@@ -157,7 +157,7 @@ static hr2d_status settle(hr2di_search *s, hr2d_status status) {
 static hr2d_status survey(hr2di_search *s) {
   hr2di_watch watch;
   hr2d_status status = HR2D_OK;
-  if (hr2di_strategy_wants_lights(s->scene, &s->given))
+  if (!s->keeps_operator && hr2di_strategy_wants_lights(s->scene, &s->given))
     status = hr2di_importance(s->scene, &s->target, hr2di_search_beam_cache(s), &s->lights,
                               &s->survey, &s->message);
   if (status || s->survey.ellipse > 0) return status;
@@ -194,23 +194,54 @@ static hr2d_status find(hr2di_search *s) {
   return fallen_back ? fallen_back : status;
 }
 
+/* From the first attempt to the status of the whole search, with the account of the best. */
+static hr2d_status run(hr2di_search *s) {
+  hr2d_status status = find(s);
+  if (!s->progress_status && status != HR2D_ENOMEM) {
+    const hr2d_status bounded = hr2di_search_bound(s);
+    if (bounded) status = bounded;
+  }
+  status = settle(s, status);
+  s->account.seconds = hr2di_clock_now() - s->start;
+  return status;
+}
+
+/* Whether the best one is handed over. */
+static int is_answer(const hr2di_search *s, hr2d_status status) {
+  return !s->progress_status && (!status || status == HR2D_EACCURACY);
+}
+
 hr2d_status hr2di_solve_to(const hr2d_scene *scene, const hr2d_target *target,
                            hr2d_solution **solution, hr2d_account *account) {
   hr2di_search s;
   hr2d_status status = hr2di_search_init(&s, scene, target);
-  if (status) {
-    hr2di_search_clear(&s);
-    return status;
+  if (!status) {
+    status = run(&s);
+    if (is_answer(&s, status)) hand_over(&s, solution);
+    if (account) *account = s.account;
   }
-  status = find(&s);
-  if (!s.progress_status && status != HR2D_ENOMEM) {
-    const hr2d_status bounded = hr2di_search_bound(&s);
-    if (bounded) status = bounded;
+  hr2di_search_clear(&s);
+  return status;
+}
+
+hr2d_status hr2di_solve_for_operator(const hr2d_scene *scene, const hr2d_target *target,
+                                     hr2di_graded *best, hr2di_resolution *fineness,
+                                     hr2d_account *account) {
+  hr2di_search s;
+  hr2d_status status = hr2di_search_init(&s, scene, target);
+  s.keeps_operator = 1;
+  if (!status) {
+    status = run(&s);
+    *account = s.account;
   }
-  status = settle(&s, status);
-  if (!s.progress_status && (!status || status == HR2D_EACCURACY)) hand_over(&s, solution);
-  s.account.seconds = hr2di_clock_now() - s.start;
-  if (account) *account = s.account;
+  if (is_answer(&s, status) && s.best.solution &&
+      s.best.hierarchy->order == s.fineness.order) { /* not a fallback */
+    *best = s.best;
+    *fineness = s.fineness;
+    fineness->lights = NULL; /* of the search, as the cache is */
+    fineness->beam_cache = NULL;
+    s.best = (hr2di_graded){0};
+  }
   hr2di_search_clear(&s);
   return status;
 }

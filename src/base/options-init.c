@@ -42,6 +42,14 @@ void hr2d_target_init(hr2d_target *target, size_t size) {
   set_defaults(target, size);
 }
 
+void hr2d_light_init(hr2d_light *light, size_t size) {
+  set_defaults(light, size);
+}
+
+void hr2d_gradient_init(hr2d_gradient *gradient, size_t size) {
+  set_defaults(gradient, size);
+}
+
 void hr2d_thermal_init(hr2d_thermal *thermal, size_t size) {
   set_defaults(thermal, size);
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Blocks for callers. */
-#include <hr2d/operator.h>
+#include <hr2d/transport.h>
 
 #include "base/alloc.h"
 #include "blocks/block.h"

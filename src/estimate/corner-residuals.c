@@ -105,6 +105,7 @@ hr2d_status hr2di_contacts_init(hr2di_contacts *c, const hr2di_transport *t) {
 void hr2di_contacts_clear(hr2di_contacts *c) {
   hr2di_alloc_free(&c->alloc, c->contact);
   hr2di_alloc_free(&c->alloc, c->residual);
+  *c = (hr2di_contacts){.alloc = c->alloc};
 }
 
 /* The leaf of which another one is an image. */

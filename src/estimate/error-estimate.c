@@ -210,50 +210,70 @@ static hr2d_status find_shares(hr2di_estimator *e, hr2di_graded *answer,
   return status == HR2D_ENOMEM ? status : HR2D_OK; /* the errors are known */
 }
 
-/* `finer` is K⁺. */
-static hr2d_status run(hr2di_graded *answer, const hr2di_resolution *fineness,
-                       const hr2di_equation_how *finer, const hr2d_target *target,
+hr2d_status hr2di_finer_init(hr2di_finer *f, const hr2di_graded *answer,
+                             const hr2di_resolution *fineness, const hr2d_target *target) {
+  const hr2di_resolution finer = hr2di_resolution_finer(fineness);
+  *f = (hr2di_finer){.roots = answer->links->roots};
+  const hr2di_equation_how how = {.order = finer.order,
+                                  .single = finer.single,
+                                  .roots = &f->roots,
+                                  .beam_cache = finer.beam_cache};
+  hr2d_status status = HR2D_OK;
+  f->roots.clusters = NULL;
+  if (answer->links->roots.clusters) {
+    f->roots.accuracy = finer.cluster_accuracy;
+    status = hr2di_clusters_finer(answer->links->roots.clusters, f->roots.accuracy,
+                                  &f->roots.clusters);
+  }
+  if (status) return status;
+  f->is_made = 1;
+  status = hr2di_estimator_init(&f->estimator, answer, &how, target);
+  f->estimator.margin = margin_of(fineness);
+  f->estimator.blind = fineness->has_events ? fineness->aim : 0;
+  return status;
+}
+
+void hr2di_finer_clear(hr2di_finer *f) {
+  if (f->is_made) hr2di_estimator_clear(&f->estimator);
+  hr2di_clusters_destroy(f->roots.clusters);
+}
+
+hr2d_status hr2di_finer_measure(hr2di_finer *f, const hr2d_solution *solution,
+                                hr2di_error_pair *errors) {
+  *errors = (hr2di_error_pair){0};
+  hr2d_status status = hr2di_estimator_take(&f->estimator, solution);
+  if (!status) status = measure_averages(&f->estimator, errors);
+  return status ? status : measure_rest(&f->estimator, errors);
+}
+
+/* What is too large gets no bound, or is told what to divide. */
+static hr2d_status run(hr2di_finer *f, hr2di_graded *answer, const hr2di_resolution *fineness,
                        hr2di_error_pair *errors) {
-  hr2di_estimator e;
+  hr2di_estimator *e = &f->estimator;
   hr2di_clusters *coarser = answer->links->roots.clusters;
-  hr2d_status status = hr2di_estimator_init(&e, answer, finer, target);
-  e.margin = margin_of(fineness);
-  e.blind = fineness->has_events ? fineness->aim : 0;
-  if (!status) status = measure_averages(&e, errors);
+  hr2d_status status = hr2di_estimator_take(e, answer->solution);
+  if (!status) status = measure_averages(e, errors);
   const int shares = fineness->a_posteriori && !answer->unresolved_jump;
   const double seen = status ? 0 : worst_of(errors);
   answer->unbounded =
       !status && shares && fineness->skip_bound && is_too_large(errors, fineness);
-  if (!status && !answer->unbounded) status = measure_rest(&e, errors);
+  if (!status && !answer->unbounded) status = measure_rest(e, errors);
   const int too_large = !status && is_too_large(errors, fineness), shared = too_large && shares;
   if (!status && coarser && too_large)
-    status = hr2di_cluster_residuals(&e, coarser, &answer->clustered);
-  if (!status && shared) status = find_shares(&e, answer, fineness, seen);
-  hr2di_estimator_clear(&e);
+    status = hr2di_cluster_residuals(e, coarser, &answer->clustered);
+  if (!status && shared) status = find_shares(e, answer, fineness, seen);
   return status;
 }
 
 hr2d_status hr2di_error_estimate(hr2di_graded *answer, const hr2di_resolution *fineness,
                                  const hr2d_target *target, hr2di_error_pair *errors,
                                  hr2di_message *message) {
-  const hr2di_resolution finer = hr2di_resolution_finer(fineness);
-  hr2d_linkset *links = answer->links;
-  hr2di_roots roots = links->roots;
-  const hr2di_equation_how how = {.order = finer.order,
-                                  .single = finer.single,
-                                  .roots = &roots,
-                                  .beam_cache = finer.beam_cache};
+  hr2di_finer finer;
   *errors = (hr2di_error_pair){0};
-  hr2d_status status = HR2D_OK;
-  if (roots.clusters) {
-    roots.accuracy = finer.cluster_accuracy;
-    roots.clusters = NULL;
-    status = hr2di_clusters_finer(links->roots.clusters, roots.accuracy, &roots.clusters);
-  }
-  if (!status) status = run(answer, fineness, &how, target, errors);
-  hr2di_clusters_destroy(roots.clusters);
-  if (!status && !answer->depth) hr2di_link_blocks_trim(&links->blocks, &links->alloc);
+  hr2d_status status = hr2di_finer_init(&finer, answer, fineness, target);
+  if (!status) status = run(&finer, answer, fineness, errors);
+  hr2di_finer_clear(&finer);
   if (!status) return status;
-  const char *own = hr2d_linkset_message(links);
+  const char *own = hr2d_linkset_message(answer->links);
   return hr2di_message_fail(message, status, "%s", own[0] ? own : hr2d_strerror(status));
 }

@@ -2,6 +2,7 @@
 #include "estimate/estimator.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/alloc.h"
 #include "estimate/importance.h"
@@ -187,11 +188,9 @@ static hr2d_status reserve(hr2di_estimator *e, const hr2d_allocator *alloc) {
   const int cuts = hr2di_symmetry_cuts(&t->hierarchy->scene->symmetry);
   const size_t field = e->eq.field, rows = t->leaves * t->bands;
   e->values = t->hierarchy->scene->patches * t->bands;
-  e->space =
-      hr2di_alloc_zero(alloc,
-                       4 * field + 4 * e->values + 2 * t->elements * t->bands + 4 * rows +
-                           14 * t->bands + (cuts ? field + 4 * e->values + 4 * t->bands : 0),
-                       sizeof *e->space);
+  e->room = 4 * field + 4 * e->values + 2 * t->elements * t->bands + 4 * rows + 14 * t->bands +
+            (cuts ? field + 4 * e->values + 4 * t->bands : 0);
+  e->space = hr2di_alloc(alloc, e->room, sizeof *e->space);
   e->exponent_of = hr2di_alloc(alloc, t->bands, sizeof *e->exponent_of);
   if (!e->space || !e->exponent_of) return HR2D_ENOMEM;
   double *next = e->space;
@@ -235,8 +234,7 @@ hr2d_status hr2di_estimator_init(hr2di_estimator *e, const hr2di_graded *answer,
   options.threads = target->threads;
   options.progress = target->progress;
   options.progress_ctx = target->progress_ctx;
-  *e = (hr2di_estimator){.coarse = answer->solution,
-                         .target = target,
+  *e = (hr2di_estimator){.target = target,
                          .unresolved_jump = answer->unresolved_jump,
                          .exponent = answer->survey.exponent,
                          .contacts.alloc = answer->links->alloc};
@@ -249,10 +247,20 @@ hr2d_status hr2di_estimator_init(hr2di_estimator *e, const hr2di_graded *answer,
   if (status) return status;
   hr2di_basis_init(&e->basis, e->eq.transport.order);
   hr2di_rule_init(&e->rule, e->eq.transport.order + 2);
+  return HR2D_OK;
+}
+
+hr2d_status hr2di_estimator_take(hr2di_estimator *e, const hr2d_solution *solution) {
+  const int again = e->coarse != NULL;
+  hr2d_status status = again ? hr2di_equation_set_light(&e->eq) : HR2D_OK;
+  if (!status && again) status = hr2di_equation_set_surfaces(&e->part);
+  e->coarse = solution;
+  e->whole = 0;
+  memset(e->space, 0, e->room * sizeof *e->space);
+  hr2di_contacts_clear(&e->contacts);
   set_floors(e);
   set_weights(e);
-  e->eq.enough = (hr2di_stopping_test){0};
-  return HR2D_OK;
+  return status;
 }
 
 void hr2di_estimator_clear(hr2di_estimator *e) {

@@ -26,6 +26,7 @@ typedef struct hr2di_estimator {
   hr2di_basis basis;
   hr2di_rule rule;
   double *space;
+  size_t room;              /* numbers there */
   double level_uncertainty; /* of the levels of components, see energy-balance.h */
   size_t values;            /* patches × bands */
   double *kept;             /* the field of B_h */
@@ -64,12 +65,16 @@ static inline size_t hr2di_estimator_part_order(size_t order) {
   return order / 3 > min ? order / 3 : min;
 }
 
-/* Makes an estimator of a solved answer, with the finer operator on its trees and links.  The
-   roots of `how` must outlive it.  Returns HR2D_OK, or a status with a message in the links.
-   The estimator must not be moved; call hr2di_estimator_clear() in any case. */
+/* Makes an estimator with the finer operator on the trees and links of an answer.  The roots of
+   `how` and the target must outlive it.  Returns HR2D_OK, or a status with a message in the
+   links.  The estimator must not be moved; call hr2di_estimator_clear() in any case. */
 hr2d_status hr2di_estimator_init(hr2di_estimator *e, const hr2di_graded *answer,
                                  const hr2di_equation_how *how, const hr2d_target *target);
 void hr2di_estimator_clear(hr2di_estimator *e);
+
+/* Turns it to a solution on these trees and links, for the light that the scene has now.
+   HR2D_OK, or HR2D_ENOMEM, or the status of the watch. */
+hr2d_status hr2di_estimator_take(hr2di_estimator *e, const hr2d_solution *solution);
 
 /* What roundings of K may be, relative to the largest irradiance: with those of blocks. */
 double hr2di_estimator_rounding(const hr2di_estimator *e);

@@ -6,6 +6,7 @@
 #include "base/alloc.h"
 #include "base/black-body.h"
 #include "scene/emissivity.h"
+#include "scene/relit-scene.h"
 
 int hr2di_scene_is_unsettled(const hr2d_scene *scene) {
   size_t k = 0;
@@ -18,59 +19,54 @@ const hr2d_scene *hr2di_scene_origin(const hr2d_scene *scene) {
   return scene->origin ? scene->origin : scene;
 }
 
-/* A light of its own for patch k, with a value of each kind for each band. */
-static hr2di_light *own_light(const hr2d_scene *scene, size_t k) {
-  const size_t head = (sizeof(hr2di_light) + sizeof(double) - 1) / sizeof(double);
-  const size_t bands = scene->bands;
-  hr2di_light *light = hr2di_alloc_zero(&scene->alloc, head + 3 * bands, sizeof(double));
-  if (!light) return NULL;
-  *light = (hr2di_light){.users = 1,
-                         .emission_bands = bands,
-                         .reflectance_bands = bands,
-                         .emissivity_bands = bands,
-                         .heat = HR2D_HEAT_FLUX,
-                         .given = scene->patch[k].light->given};
-  return light;
+/* The numbers of a light with a value of each kind for each band. */
+static size_t size_of(const hr2d_scene *scene) {
+  return (sizeof(hr2di_light) + sizeof(double) - 1) / sizeof(double) + 3 * scene->bands;
+}
+
+/* Such a light for patch k. */
+static hr2di_light light_of(const hr2d_scene *scene, size_t k) {
+  return (hr2di_light){.emission_bands = scene->bands,
+                       .reflectance_bands = scene->bands,
+                       .emissivity_bands = scene->bands,
+                       .heat = HR2D_HEAT_FLUX,
+                       .given = scene->patch[k].light->given};
+}
+
+static void make_lights(hr2d_scene *made, const hr2d_scene *scene) {
+  const size_t cell = hr2di_scene_cell(scene);
+  double *next = made->own_lights;
+  for (size_t k = 0; k < scene->patches; k++) made->patch[k] = scene->patch[k];
+  for (size_t k = 0; k < cell; k++) {
+    if (!hr2di_scene_has_flux(scene, k)) continue;
+    made->patch[k].light = (hr2di_light *)(void *)next;
+    *made->patch[k].light = light_of(scene, k);
+    next += size_of(scene);
+  }
+  for (size_t k = cell; k < scene->patches; k++)
+    made->patch[k].light = made->patch[hr2di_scene_original(scene, k)].light;
 }
 
 hr2d_status hr2di_frozen_create(const hr2d_scene *scene, hr2d_scene **frozen) {
-  const size_t cell = hr2di_scene_cell(scene);
+  size_t fluxes = 0;
+  for (size_t k = 0; k < hr2di_scene_cell(scene); k++) fluxes += hr2di_scene_has_flux(scene, k);
   hr2d_scene *made = hr2di_alloc(&scene->alloc, 1, sizeof *made);
   if (!made) return HR2D_ENOMEM;
   *made = *scene;
-  made->origin = scene;
+  made->origin = made->lender = scene;
   made->patch = hr2di_alloc(&scene->alloc, scene->patches, sizeof *made->patch);
   made->found = hr2di_alloc_zero(&scene->alloc, scene->patches, sizeof *made->found);
-  hr2d_status status = made->patch && made->found ? HR2D_OK : HR2D_ENOMEM;
-  for (size_t k = 0; k < scene->patches && made->patch; k++) made->patch[k] = scene->patch[k];
-  for (size_t k = 0; k < scene->patches && made->found; k++)
+  made->own_lights =
+      hr2di_alloc_zero(&scene->alloc, fluxes * size_of(scene) + 1, sizeof(double));
+  if (!made->patch || !made->found || !made->own_lights) {
+    hr2di_relit_destroy(made);
+    return HR2D_ENOMEM;
+  }
+  make_lights(made, scene);
+  for (size_t k = 0; k < scene->patches; k++)
     made->found[k] = (hr2di_found){.estimate = NAN, .bound = NAN};
-  for (size_t k = 0; k < cell && !status; k++) {
-    if (!hr2di_scene_has_flux(scene, k)) continue;
-    hr2di_light *light = own_light(scene, k);
-    if (light) made->patch[k].light = light;
-    status = light ? HR2D_OK : HR2D_ENOMEM;
-  }
-  for (size_t k = cell; k < scene->patches && !status; k++)
-    made->patch[k].light = made->patch[hr2di_scene_original(scene, k)].light;
-  if (status) {
-    hr2di_frozen_destroy(made);
-    return status;
-  }
   *frozen = made;
   return HR2D_OK;
-}
-
-void hr2di_frozen_destroy(hr2d_scene *frozen) {
-  if (!frozen) return;
-  const hr2d_scene *origin = frozen->origin;
-  for (size_t k = 0; k < hr2di_scene_cell(frozen) && frozen->patch; k++)
-    if (frozen->patch[k].light != origin->patch[k].light)
-      hr2di_alloc_free(&frozen->alloc, frozen->patch[k].light);
-  hr2di_alloc_free(&frozen->alloc, frozen->patch);
-  hr2di_alloc_free(&frozen->alloc, frozen->found);
-  const hr2d_allocator alloc = frozen->alloc;
-  hr2di_alloc_free(&alloc, frozen);
 }
 
 /* Below 0 K all emission, which is negative, is in the band of the longest waves, as in the
@@ -104,9 +100,7 @@ hr2d_status hr2di_frozen_set(hr2d_scene *frozen, size_t patch, double radiance) 
 }
 
 double hr2di_frozen_rise(const hr2d_scene *frozen, size_t patch, size_t band) {
-  const size_t last = frozen->wavelengths;
   const double kelvin = kelvin_of(frozen->found[patch].radiance);
-  const double rise = hr2di_black_body_rise(kelvin, band ? frozen->wavelength[band - 1] : 0,
-                                            band < last ? frozen->wavelength[band] : HUGE_VAL);
+  const double rise = hr2di_scene_band_rise(frozen, kelvin, band);
   return (1 - hr2d_scene_reflectance(frozen, patch, band)) * rise;
 }

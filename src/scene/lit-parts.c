@@ -20,7 +20,7 @@ const hr2di_lit_part *hr2di_sunlight_of(const hr2d_scene *scene, size_t patch, s
   const hr2di_sunlight *l = &scene->sunlight;
   *count = 0;
   if (l->suns == 0) return NULL;
-  const size_t sun = l->suns == 1 ? 0 : band, end = l->of_sun[sun + 1];
+  const size_t sun = band % l->suns, end = l->of_sun[sun + 1];
   size_t low = l->of_sun[sun], high = end;
   while (low < high) {
     const size_t middle = low + (high - low) / 2;

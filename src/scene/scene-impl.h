@@ -77,6 +77,9 @@ struct hr2d_scene {
     int forced;
     char reason[400];
   } effect[HR2D_EFFECT_COUNT];
+  const hr2d_scene
+      *lender;      /* of a scene with other light, see relit-scene.h; otherwise NULL, */
+  void *own_lights; /* as this: the lights of its patches that it owns */
   const hr2d_scene *origin;  /* of a scene of frozen temperatures, see frozen-temperatures.h;
                                 otherwise NULL, */
   struct hr2di_found *found; /* as this; per patch */
@@ -125,6 +128,9 @@ hr2di_label hr2di_new_patch_label(const hr2d_scene *scene, const char *name);
 
 /* The part of the black body's emission that a band of the wavelengths has; 1 without them. */
 double hr2di_scene_band_part(const hr2d_scene *scene, double kelvin, size_t band);
+
+/* Its derivative, with the emission, by σT⁴; see hr2di_black_body_rise(). */
+double hr2di_scene_band_rise(const hr2d_scene *scene, double kelvin, size_t band);
 
 /* Removes the plane and its side parts. */
 void hr2di_scene_clear_plane(hr2d_scene *scene);

@@ -321,7 +321,7 @@ void hr2d_scene_set_progress(hr2d_scene *scene, hr2d_progress_fn progress, void 
 
 void hr2di_scene_choose_progress(const hr2d_scene *scene, hr2d_progress_fn *progress,
                                  void **ctx) {
-  const hr2d_scene *own = scene->origin ? scene->origin : scene;
+  const hr2d_scene *own = scene->lender ? scene->lender : scene;
   if (*progress) return;
   *progress = own->progress;
   *ctx = own->progress_ctx;

@@ -10,6 +10,7 @@
 #include <stdint.h>
 
 #include "base/alloc.h"
+#include "base/black-body.h"
 #include "base/sized-struct.h"
 #include "scene/emissivity.h"
 #include "scene/scene-impl.h"
@@ -90,8 +91,16 @@ static hr2d_status check_emissivity(hr2d_scene *scene, const hr2d_patch *patch,
 double hr2di_scene_band_part(const hr2d_scene *scene, double kelvin, size_t band) {
   const size_t count = scene->wavelengths;
   if (!count) return 1;
+  band %= count + 1; /* lights in one scene repeat the bands */
   return hr2d_black_body_part(kelvin, band ? scene->wavelength[band - 1] : 0,
                               band < count ? scene->wavelength[band] : HUGE_VAL);
+}
+
+double hr2di_scene_band_rise(const hr2d_scene *scene, double kelvin, size_t band) {
+  const size_t count = scene->wavelengths;
+  band %= count + 1;
+  return hr2di_black_body_rise(kelvin, band ? scene->wavelength[band - 1] : 0,
+                               band < count ? scene->wavelength[band] : HUGE_VAL);
 }
 
 /* Of a given T the emissivity is known: in the place of a table or a function come its values,

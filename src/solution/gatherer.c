@@ -166,7 +166,7 @@ static void add_leaves(hr2di_gatherer *g, const hr2di_visible_interval *seen) {
 
 double hr2di_gatherer_nearest(const hr2di_gatherer *g, size_t patch, double from, double to,
                               double *distance) {
-  const hr2di_patch *p = &g->solution->hierarchy->scene->patch[patch];
+  const hr2di_patch *p = &hr2di_solution_scene(g->solution)->patch[patch];
   const hr2d_point a = p->scaled.a, along = hr2di_point_minus(p->scaled.b, a);
   const double t = hr2di_point_dot(hr2di_point_minus(g->x, a), along) / p->length / p->length;
   const double at = fmin(fmax(t, from), to);
@@ -198,7 +198,8 @@ static void set_one(hr2di_gatherer *g, const hr2di_visible_interval *seen) {
 
 /* Images of a period may stand for those that are cut off as well. */
 static void add_interval(hr2di_gatherer *g, const hr2di_visible_interval *seen) {
-  const double weight = hr2di_periodic_tail_weight(g->solution->hierarchy->scene, seen->patch);
+  const double weight =
+      hr2di_periodic_tail_weight(hr2di_solution_scene(g->solution), seen->patch);
   if (weight == 1 || !g->past) {
     add_one(g, seen);
     return;
@@ -227,7 +228,7 @@ static int is_at_edge(const hr2di_visible_interval *seen, const hr2di_edge *q) {
 
 /* Adds what the pieces of the sky send beyond the background. */
 static void add_sky(hr2di_gatherer *g, size_t patch, const hr2di_view_from *seen) {
-  const hr2d_scene *scene = g->solution->hierarchy->scene;
+  const hr2d_scene *scene = hr2di_solution_scene(g->solution);
   for (size_t k = 0; k < scene->sky.pieces; k++) {
     hr2di_sines part[2];
     const int parts = hr2di_sky_front(scene, patch, k, part);
@@ -242,7 +243,7 @@ static void add_sky(hr2di_gatherer *g, size_t patch, const hr2di_view_from *seen
 /* Adds the sky past the ends of a period, by what shows of it at some bearings. */
 static void add_far_sky(const hr2di_gatherer *g, const double *factor, const double *bearing,
                         double *value) {
-  const hr2d_scene *scene = g->solution->hierarchy->scene;
+  const hr2d_scene *scene = hr2di_solution_scene(g->solution);
   if (!g->past || !scene->effect[HR2D_EFFECT_BACKGROUND].on) return;
   for (int k = 0; k < HR2DI_SKIES; k++)
     for (size_t b = 0; b < g->solution->bands; b++)
@@ -251,7 +252,7 @@ static void add_far_sky(const hr2di_gatherer *g, const double *factor, const dou
 
 hr2d_status hr2di_gatherer_look_past(hr2di_gatherer *g, size_t patch, double t, double *past,
                                      double *ends) {
-  const hr2d_scene *scene = g->solution->hierarchy->scene;
+  const hr2d_scene *scene = hr2di_solution_scene(g->solution);
   const size_t bands = g->solution->bands;
   hr2di_view_from seen;
   hr2di_periodic_tail tail;
@@ -294,13 +295,13 @@ static int is_dark(const hr2d_solution *s, size_t band) {
  */
 static double light_of_sky(const hr2di_gatherer *g, double factor, size_t band) {
   if (factor <= NONE && is_dark(g->solution, band)) return 0;
-  return factor * hr2d_scene_background(g->solution->hierarchy->scene, band);
+  return factor * hr2d_scene_background(hr2di_solution_scene(g->solution), band);
 }
 
 hr2d_status hr2di_gatherer_look(hr2di_gatherer *g, size_t patch, double t,
                                 const hr2di_edge *without, double *irradiance, double *wedge,
                                 double *others) {
-  const hr2d_scene *scene = g->solution->hierarchy->scene;
+  const hr2d_scene *scene = hr2di_solution_scene(g->solution);
   const int background = scene->effect[HR2D_EFFECT_BACKGROUND].on;
   hr2di_view_from seen;
   const hr2d_status status = hr2di_view_at(g->viewer, patch, t, &seen);
@@ -337,7 +338,7 @@ hr2d_status hr2di_gatherer_init(hr2di_gatherer *g, const hr2d_solution *solution
   g->current = g->far + solution->bands;
   hr2di_basis_init(&g->basis, solution->order);
   set_rules(g);
-  return hr2di_point_viewer_create(solution->hierarchy->scene, &solution->alloc, watch,
+  return hr2di_point_viewer_create(hr2di_solution_scene(solution), &solution->alloc, watch,
                                    &g->viewer);
 }
 

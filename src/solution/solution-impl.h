@@ -14,9 +14,11 @@ struct hr2d_solution {
   const hr2d_hierarchy *hierarchy;
   hr2d_hierarchy *own_hierarchy; /* made by hr2d_solve_to(), destroyed with the solution */
   hr2d_linkset *own_links;       /* likewise */
-  hr2d_scene
-      *own_scene; /* a scene of frozen temperatures, destroyed with the solution; mostly NULL */
-  size_t elements; /* of the hierarchy when this was solved */
+  hr2d_scene *own_scene;         /* of frozen temperatures, or with the light of an operator's
+                                    solve; destroyed with the solution; mostly NULL */
+  void (*release)(void *kept);   /* ends the use of trees and links that an operator keeps; */
+  void *kept;                    /* NULL: there is none */
+  size_t elements;               /* of the hierarchy when this was solved */
   size_t order, bands;
   double *value;         /* elements × order × bands, Legendre coefficients of B */
   double *irradiance;    /* likewise of H */
@@ -27,8 +29,7 @@ struct hr2d_solution {
   double residual;
 };
 
-/* The scene whose E and ρ the solution has: that of its hierarchy, or one of frozen
- * temperatures of it. */
+/* The scene whose light the solution has: that of its hierarchy, or its own. */
 static inline const hr2d_scene *hr2di_solution_scene(const hr2d_solution *solution) {
   return solution->own_scene ? solution->own_scene : solution->hierarchy->scene;
 }

@@ -17,7 +17,8 @@ void hr2d_solution_destroy(hr2d_solution *solution) {
   hr2di_alloc_free(&alloc, solution->power_cut_off);
   hr2d_linkset_destroy(solution->own_links);
   hr2d_hierarchy_destroy(solution->own_hierarchy);
-  hr2di_frozen_destroy(solution->own_scene);
+  hr2di_relit_destroy(solution->own_scene);
+  if (solution->release) solution->release(solution->kept);
   hr2di_alloc_free(&alloc, solution);
 }
 

@@ -18,21 +18,22 @@
 /* The point of a patch at the edge of a wedge, with the inside of the patch on the given side
    if both are. */
 static hr2di_edge edge_of(const hr2di_gatherer *g, size_t patch, double at, double side) {
-  const double step = BESIDE / g->solution->hierarchy->scene->patch[patch].length;
+  const double step = BESIDE / hr2di_solution_scene(g->solution)->patch[patch].length;
   const double inside = at <= step ? 1 : at >= 1 - step ? -1 : side;
   return (hr2di_edge){patch, at, 8 * step, inside};
 }
 
 /* The unit vector along a patch, from the edge to the point beside it. */
 static hr2d_point direction_of(const hr2di_gatherer *g, const hr2di_edge *e) {
-  const hr2di_patch *p = &g->solution->hierarchy->scene->patch[e->patch];
+  const hr2di_patch *p = &hr2di_solution_scene(g->solution)->patch[e->patch];
   const hr2d_point along = hr2di_point_minus(p->scaled.b, p->scaled.a);
   return (hr2d_point){e->inside * along.x / p->length, e->inside * along.y / p->length};
 }
 
 /* A place so many steps beside an edge. */
 static double beside(const hr2di_gatherer *g, const hr2di_edge *e, double steps) {
-  const double step = steps * BESIDE / g->solution->hierarchy->scene->patch[e->patch].length;
+  const double step =
+      steps * BESIDE / hr2di_solution_scene(g->solution)->patch[e->patch].length;
   return fmin(fmax(e->at + e->inside * step, 0), 1);
 }
 
@@ -85,7 +86,7 @@ static hr2d_status close_wedge(hr2di_gatherer *g, const hr2di_edge *p, const hr2
 
 /* Where a patch has an edge in common with that at p, and shows its front beside it. */
 static int makes_wedge(const hr2di_gatherer *g, size_t patch, hr2di_edge *q) {
-  const hr2d_segment s = g->solution->hierarchy->scene->patch[patch].scaled;
+  const hr2d_segment s = hr2di_solution_scene(g->solution)->patch[patch].scaled;
   const double rises = hr2di_point_dot(hr2di_point_minus(s.b, s.a), g->normal);
   double distance;
   const double at = hr2di_gatherer_nearest(g, patch, 0, 1, &distance);
@@ -98,7 +99,7 @@ static int makes_wedge(const hr2di_gatherer *g, size_t patch, hr2di_edge *q) {
  *k, or that of patches if there is none.  It is seen from where limits are found. */
 static hr2d_status next_wedge(hr2di_gatherer *g, const hr2di_edge *p, size_t *k,
                               hr2di_edge *q) {
-  const hr2d_scene *scene = g->solution->hierarchy->scene;
+  const hr2d_scene *scene = hr2di_solution_scene(g->solution);
   hr2di_view_from seen;
   const hr2d_status status = hr2di_view_at(g->viewer, p->patch, beside(g, p, 2), &seen);
   if (status) return status;
@@ -116,7 +117,7 @@ static hr2d_status next_wedge(hr2di_gatherer *g, const hr2di_edge *p, size_t *k,
 
 hr2d_status hr2di_gatherer_close_wedge(hr2di_gatherer *g, size_t patch, double t,
                                        double *irradiance, int *closed) {
-  const hr2d_scene *scene = g->solution->hierarchy->scene;
+  const hr2d_scene *scene = hr2di_solution_scene(g->solution);
   const hr2di_edge p = edge_of(g, patch, t, t <= 0.5 ? 1 : -1);
   hr2di_edge q;
   hr2d_status status = HR2D_OK;

@@ -18,12 +18,9 @@
 #include "solve/external-irradiance.h"
 #include "solve/row-sums.h"
 
-/* Whether a patch reflects; if none does, closure has nothing to correct. */
+/* Where nothing reflects, closure has nothing to correct. */
 static int reflects(const hr2d_scene *scene) {
-  for (size_t k = 0; k < scene->patches; k++)
-    for (size_t band = 0; band < scene->bands; band++)
-      if (hr2d_scene_reflectance(scene, k, band) > 0) return 1;
-  return 0;
+  return scene->effect[HR2D_EFFECT_INTERREFLECTION].on;
 }
 
 /* At an order above 1.  The background needs closed rows: what K lacks elsewhere would
@@ -102,6 +99,7 @@ static hr2d_status set_surfaces(hr2di_equation *s) {
   return status;
 }
 
+/* Takes √ρ and what is lost. */
 hr2d_status hr2di_equation_set_surfaces(hr2di_equation *s) {
   if (s->balance.count > 0) hr2di_balance_set_losses(&s->balance, &s->transport);
   return set_surfaces(s);
@@ -121,12 +119,13 @@ hr2d_status hr2di_equation_reserve(hr2di_equation *s) {
   s->norm[0] = s->space + s->items + 7 * s->field;
   s->norm[1] = s->norm[0] + t->bands;
   s->light = s->norm[1] + t->bands;
-  return set_surfaces(s);
+  return HR2D_OK;
 }
 
 /* E is constant on leaves. */
 static hr2d_status set_source(hr2di_equation *s) {
   const hr2di_transport *t = &s->transport;
+  for (size_t k = 0; k < s->field; k++) s->source[k] = 0;
   for (size_t k = 0; k < t->leaves; k++)
     for (size_t b = 0; b < t->bands; b++)
       s->source[k * t->width + b] =
@@ -138,10 +137,22 @@ static hr2d_status set_source(hr2di_equation *s) {
 static hr2d_status set_outside(hr2di_equation *s) {
   const hr2di_transport *t = &s->transport;
   const hr2d_scene *scene = t->hierarchy->scene;
-  if (!t->sky && !hr2di_scene_has_sun(scene) && !hr2di_external_has_pieces(scene))
+  if (!t->sky && !hr2di_scene_has_sun(scene) && !hr2di_external_has_pieces(scene)) {
+    hr2di_alloc_free(&s->links->alloc, s->outside);
+    s->outside = NULL;
     return HR2D_OK;
-  s->outside = hr2di_alloc(&s->links->alloc, s->field, sizeof *s->outside);
+  }
+  if (!s->outside) s->outside = hr2di_alloc(&s->links->alloc, s->field, sizeof *s->outside);
   return s->outside ? hr2di_external_set(t, s->light, s->exponent, s->outside) : HR2D_ENOMEM;
+}
+
+hr2d_status hr2di_equation_set_light(hr2di_equation *s) {
+  hr2d_status status = hr2di_equation_set_surfaces(s);
+  set_exponents(s);
+  if (!status) status = set_outside(s);
+  for (size_t k = 0; k < s->field; k++) s->y[k] = 0;
+  s->background = 1;
+  return status ? status : set_source(s);
 }
 
 hr2di_equation_how hr2di_equation_how_of(const hr2d_linkset *links) {
@@ -180,10 +191,7 @@ hr2d_status hr2di_equation_init(hr2di_equation *s, hr2d_linkset *links, const hr
   s->exponent = hr2di_alloc(&s->links->alloc, t->bands, sizeof *s->exponent);
   if (!s->exponent) return HR2D_ENOMEM;
   status = hr2di_equation_reserve(s);
-  if (status) return status;
-  set_exponents(s);
-  status = set_outside(s);
-  return status ? status : set_source(s);
+  return status ? status : hr2di_equation_set_light(s);
 }
 
 /* out = √ρ K √ρ in */

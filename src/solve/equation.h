@@ -76,8 +76,13 @@ void hr2di_equation_clear(hr2di_equation *eq);
 /* Takes √ρ of the scene where it has changed.  Returns HR2D_OK or the status of the watch. */
 hr2d_status hr2di_equation_set_surfaces(hr2di_equation *eq);
 
-/* Makes the fields of an equation that has its transport, all 0 but weights and √ρ.  Returns
-   HR2D_OK, HR2D_ENOMEM or the status of the watch. */
+/* Takes E, √ρ and the light from outside of the scene, once the scene has changed them; what
+   was found for the former ones is forgotten.  Returns HR2D_OK, HR2D_ENOMEM or the status of
+   the watch. */
+hr2d_status hr2di_equation_set_light(hr2di_equation *eq);
+
+/* Makes the fields of an equation that has its transport, all 0 but weights.  Returns HR2D_OK
+   or HR2D_ENOMEM. */
 hr2d_status hr2di_equation_reserve(hr2di_equation *eq);
 
 /* eq->irradiance = K radiosity + the irradiance from the background. */

@@ -42,7 +42,7 @@ hr2d_status hr2di_heat_scene_create(const hr2d_scene *scene, const hr2d_solution
     if (!status) status = hr2di_frozen_set(made, k, former ? former[k].radiance : bright);
   }
   if (status)
-    hr2di_frozen_destroy(made);
+    hr2di_relit_destroy(made);
   else
     *frozen = made;
   return status;

@@ -68,6 +68,7 @@ hr2d_status hr2di_equation_part(hr2di_equation *part, const hr2di_equation *whol
     status = part->balance.missing ? HR2D_OK : HR2D_ENOMEM;
   }
   if (!status) status = hr2di_equation_reserve(part);
+  if (!status) status = hr2di_equation_set_surfaces(part);
   return status ? status : hr2di_watch_work(t->watch, t->leaves * t->width / 4);
 }
 

@@ -10,7 +10,7 @@
    does, the lines from a leaf are all lines to the segment where the line class ends. */
 #include "solve/row-sums.h"
 
-#include <hr2d/operator.h>
+#include <hr2d/transport.h>
 
 #include "base/alloc.h"
 #include "beams/line-class-list.h"

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* hr2d_solve(): from links, and perhaps a former solution, to a solution and its powers. */
-#include <hr2d/operator.h>
 #include <hr2d/solve.h>
+#include <hr2d/transport.h>
 #include <math.h>
 #include <string.h>
 
@@ -181,7 +181,9 @@ static hr2d_status make_solution(hr2di_equation *s, hr2d_solution **solution) {
                           .residual = hr2di_equation_residual(s)};
   made->power = hr2di_alloc(&made->alloc, t->bands, sizeof *made->power);
   made->value = hr2di_alloc(&made->alloc, t->elements * t->width, sizeof *made->value);
-  if (!made->power || !made->value) {
+  made->irradiance =
+      hr2di_alloc(&made->alloc, t->elements * t->width, sizeof *made->irradiance);
+  if (!made->power || !made->value || !made->irradiance) {
     hr2d_solution_destroy(made);
     return HR2D_ENOMEM;
   }
@@ -192,9 +194,7 @@ static hr2d_status make_solution(hr2di_equation *s, hr2d_solution **solution) {
   }
   int finite = take_raised(s, s->radiosity, made->value);
   hr2di_closure_move_mean(t, s->radiosity, s->irradiance);
-  finite &= take_raised(s, s->irradiance, t->up);
-  made->irradiance = t->up;
-  t->up = NULL;
+  finite &= take_raised(s, s->irradiance, made->irradiance);
   hr2di_image_map_spread(&t->image_map, t->order, t->bands, made->value);
   hr2di_image_map_spread(&t->image_map, t->order, t->bands, made->irradiance);
   if (finite && !t->failed) {
@@ -280,6 +280,33 @@ static hr2d_status guess(hr2d_linkset *links, const hr2d_solve_options *options,
   return status;
 }
 
+/* During the solve callbacks may change neither the links nor the hierarchy. */
+static void begin(hr2d_linkset *links) {
+  links->solving = 1;
+  atomic_fetch_add(&links->hierarchy->readers, 1);
+}
+
+static void end(hr2d_linkset *links) {
+  atomic_fetch_sub(&links->hierarchy->readers, 1);
+  links->solving = 0;
+}
+
+hr2d_status hr2di_solve_again(hr2di_equation *eq, const hr2d_solution *start,
+                              hr2d_solution **solution) {
+  hr2d_status status = hr2di_existence_check(eq->links, eq->transport.scene, &eq->watch);
+  eq->options.start = start;
+  eq->residuals = eq->transport.sweeps = 0;
+  begin(eq->links);
+  if (!status) status = find(eq);
+  if (!status) status = make_solution(eq, solution);
+  end(eq->links);
+  tell_refusal(eq, status);
+  eq->row_sums = eq->kernels = 0;
+  eq->coefficients_seconds = 0;
+  eq->options.start = NULL;
+  return status;
+}
+
 /* A solution that another share does not have is none. */
 static hr2d_status agree(hr2d_linkset *links, hr2d_status own, hr2d_solution **solution) {
   const hr2d_status status = hr2di_share_agree(links->share, own);
@@ -291,7 +318,6 @@ static hr2d_status agree(hr2d_linkset *links, hr2d_status own, hr2d_solution **s
   return status;
 }
 
-/* During the solve callbacks may change neither the links nor the hierarchy. */
 static hr2d_status run(hr2d_linkset *links, const hr2di_equation_how *how,
                        const hr2d_solve_options *given, const double *field,
                        hr2d_solution **solution) {
@@ -308,15 +334,13 @@ static hr2d_status run(hr2d_linkset *links, const hr2di_equation_how *how,
   hr2di_scene_watch(scene, &watch, options.progress, options.progress_ctx, "rows");
   if (hr2di_scene_is_unsettled(scene)) status = guess(links, &options, &frozen);
   if (!status && !field) status = hr2di_existence_check(links, frozen ? frozen : scene, &watch);
-  links->solving = 1;
-  atomic_fetch_add(&links->hierarchy->readers, 1);
+  begin(links);
   hr2d_solution *made = NULL;
   if (!status)
     status = frozen ? solve_heat(links, &options, frozen, &made)
                     : solve(links, how, &options, field, &made);
-  atomic_fetch_sub(&links->hierarchy->readers, 1);
-  links->solving = 0;
-  if (status) hr2di_frozen_destroy(frozen);
+  end(links);
+  if (status) hr2di_relit_destroy(frozen);
   if (status == HR2D_ENOMEM)
     hr2di_message_fail(&links->message, status, "out of memory for the solve");
   if (links->share) status = agree(links, status, &made);

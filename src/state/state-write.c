@@ -152,9 +152,10 @@ static void put_temperatures(hr2di_writer *w, const hr2d_solution *s, hr2di_watc
   }
 }
 
-/* A solution to a target is no stage, and a function of emissivity cannot be compared. */
+/* A solution to a target is no stage, nor is one of an operator, and a function of emissivity
+   cannot be compared. */
 static int has_state(const hr2d_solution *s) {
-  if (s->own_links) return 0;
+  if (s->own_links || s->kept) return 0;
   for (size_t k = 0; s->own_scene && k < s->own_scene->patches; k++)
     if (hr2di_emissivity_depends(s->hierarchy->scene, k)) return 0;
   return 1;

@@ -4,7 +4,7 @@
    Threads make half rows and keep them in chunks of their own.  A row of the result is the half
    row of its patch, and what other half rows have in its column.  As these are visited in
    order, both parts are sorted and are merged. */
-#include <hr2d/operator.h>
+#include <hr2d/transport.h>
 #include <string.h>
 
 #include "base/alloc.h"

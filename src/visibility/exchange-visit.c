@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Exchange areas row by row.  Threads make the rows of some blocks and keep them; then the
    calling thread shows them in the order of the blocks. */
-#include <hr2d/operator.h>
+#include <hr2d/transport.h>
 #include <math.h>
 
 #include "base/alloc.h"

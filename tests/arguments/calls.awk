@@ -20,6 +20,10 @@ BEGIN {
   good["hr2d_exchange_rows **"] = "&s->made_rows"
   good["const hr2d_enclosure *"] = "s->enclosure"; good["hr2d_enclosure **"] = "&s->made_enclosure"
   good["hr2d_enclosure *"] = "s->enclosure"
+  good["hr2d_operator *"] = good["const hr2d_operator *"] = "s->op"
+  good["hr2d_operator **"] = "&s->made_op"; good["operator_solve.start"] = "s->op_solution"
+  good["operator_gradient.solution"] = "s->op_solution"
+  good["operator_response.first"] = "0"; good["operator_response.columns"] = "1"
   good["double *"] = "s->number"; good["const double *"] = "s->half"; good["double"] = "0.5"
   good["double (*)[2]"] = "s->part"; good["uint32_t *"] = "s->index"; good["size_t *"] = "&s->size"
   good["size_t"] = "1"; good["uint64_t"] = "0"; good["uint32_t"] = "0"; good["unsigned"] = "1"
@@ -68,6 +72,7 @@ BEGIN {
     "scene_add.index|scene_add_thermal.index|scene_split_crossings.cuts|study_run.done|" \
     "scene_heat.value|hierarchy_divide.child|leaf_sums.front|leaf_sums.back|" \
     "field_rows_visit.normal|const hr2d_enclose_options *|hr2d_enclosure_account *|" \
+    "const hr2d_light *|operator_solve.start|operator_gradient.v|operator_gradient.w|" \
     "enclosure_error.average|enclosure_error.irradiance", list, "|")
   for (k = 1; k <= n; k++) optional[list[k]] = 1
   required["refine_count.counts"] = required["refine_visit.counts"] = 1

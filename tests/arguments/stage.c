@@ -141,6 +141,9 @@ static void make_objects(stage *s) {
   const hr2d_enclose_options how = {.struct_size = sizeof how, .gap = 1};
   const hr2d_status status = hr2d_enclose(s->scene, &how, &s->enclosure, NULL);
   ck_assert(status == HR2D_OK || status == HR2D_EACCURACY);
+  const hr2d_target rough = {.struct_size = sizeof rough, .error = 0.1};
+  ck_assert_int_eq(hr2d_operator_create(s->scene, &rough, &s->op, NULL), HR2D_OK);
+  ck_assert_int_eq(hr2d_operator_solve(s->op, NULL, NULL, &s->op_solution, NULL), HR2D_OK);
   s->state.until_failure = s->scene_state.until_failure = -1;
   ck_assert_int_eq(hr2d_state_write(s->solution, tape_record, &s->state), HR2D_OK);
   ck_assert_int_eq(hr2d_state_write_scene(s->scene, tape_record, &s->scene_state), HR2D_OK);
@@ -180,6 +183,9 @@ static void make_structs(stage *s) {
   s->good_target.error = 0.1;
   s->good_target.important = &s->size;
   s->good_target.important_count = 1;
+  s->good_light = (hr2d_light)HR2D_LIGHT_INIT;
+  s->good_values = (hr2d_values){s->half, {0, 0, 0}};
+  s->good_gradient = (hr2d_gradient)HR2D_GRADIENT_INIT;
   s->good_enclose_options = (hr2d_enclose_options)HR2D_ENCLOSE_OPTIONS_INIT;
   s->good_enclose_options.gap = 1;
   s->good_refine_options = (hr2d_refine_options)HR2D_REFINE_OPTIONS_INIT;
@@ -211,6 +217,7 @@ static void destroy_made(stage *s) {
   hr2d_clusters_destroy(s->made_clusters);
   hr2d_exchange_rows_destroy(s->made_rows);
   hr2d_enclosure_destroy(s->made_enclosure);
+  hr2d_operator_destroy(s->made_op);
   hr2d_solution_destroy(s->made_solution);
   hr2d_linkset_destroy(s->made_links);
   hr2d_hierarchy_destroy(s->made_hierarchy);
@@ -218,6 +225,7 @@ static void destroy_made(stage *s) {
   s->made_clusters = NULL;
   s->made_rows = NULL;
   s->made_enclosure = NULL;
+  s->made_op = NULL;
   s->made_solution = NULL;
   s->made_links = NULL;
   s->made_hierarchy = NULL;
@@ -240,6 +248,8 @@ void stage_end(stage *s) {
   hr2d_clusters_destroy(s->clusters);
   hr2d_exchange_rows_destroy(s->rows);
   hr2d_enclosure_destroy(s->enclosure);
+  hr2d_solution_destroy(s->op_solution);
+  hr2d_operator_destroy(s->op);
   hr2d_solution_destroy(s->solution);
   hr2d_solution_destroy(s->other);
   hr2d_linkset_destroy(s->free_links);

@@ -23,6 +23,8 @@ typedef struct stage {
   hr2d_clusters *clusters;
   hr2d_exchange_rows *rows;
   hr2d_enclosure *enclosure;
+  hr2d_operator *op;
+  hr2d_solution *op_solution;
   hr2d_scene *made_scene; /* what calls make */
   hr2d_hierarchy *made_hierarchy;
   hr2d_linkset *made_links;
@@ -30,6 +32,7 @@ typedef struct stage {
   hr2d_clusters *made_clusters;
   hr2d_exchange_rows *made_rows;
   hr2d_enclosure *made_enclosure;
+  hr2d_operator *made_op;
   double number[STAGE_NUMBERS], half[STAGE_NUMBERS], field[STAGE_NUMBERS], part[4][2];
   uint32_t index[STAGE_NUMBERS];
   unsigned char byte[STAGE_NUMBERS];
@@ -55,6 +58,9 @@ typedef struct stage {
   hr2d_thermal good_thermal;
   hr2d_share good_share;
   hr2d_target good_target;
+  hr2d_light good_light;
+  hr2d_values good_values;
+  hr2d_gradient good_gradient;
   hr2d_account good_account;
   hr2d_prediction good_prediction;
   hr2d_enclose_options good_enclose_options;

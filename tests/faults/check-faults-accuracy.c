@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Allocation k fails in hr2d_solve_to(), hr2d_predict(), hr2d_solution_error() and
-   hr2d_enclose(), which choose elements and links themselves. */
+/* Allocation k fails in hr2d_solve_to(), hr2d_predict(), hr2d_solution_error(), hr2d_enclose()
+   and calls of operators, which choose elements and links themselves. */
 #include <string.h>
 
 #include "clusters/clusters.h"
@@ -105,6 +105,37 @@ static hr2d_status measure(fault_stage *s, uint64_t *sum) {
   return HR2D_OK;
 }
 
+static hr2d_status mix_operator(hr2d_operator *op, uint64_t *sum) {
+  hr2d_account account;
+  hr2d_solution *s = NULL;
+  double column[64];
+  hr2d_gradient gradient = HR2D_GRADIENT_INIT;
+  hr2d_status status = hr2d_operator_solve(op, NULL, NULL, &s, &account);
+  if (!status) *sum = fault_mix_count(*sum, fault_solution_sum(s));
+  if (!status) *sum = fault_mix(*sum, &account.average, sizeof account.average);
+  if (!status) status = hr2d_operator_gradient(op, s, NULL, NULL, &gradient);
+  if (!status) status = hr2d_operator_response(op, NULL, 0, 1, column);
+  if (!status) *sum = fault_mix(*sum, column, sizeof *column);
+  hr2d_solution_destroy(s);
+  return status;
+}
+
+/* All calls of an operator; each of them may fail. */
+static hr2d_status operate(fault_stage *s, uint64_t *sum) {
+  hr2d_target target = HR2D_TARGET_INIT;
+  target.error = 0.1;
+  hr2d_operator *op = (hr2d_operator *)s;
+  hr2d_status status = hr2d_operator_create(s->scene, &target, &op, NULL);
+  if (status) {
+    ck_assert_ptr_null(op);
+    return status;
+  }
+  status = mix_operator(op, sum);
+  if (status) ck_assert_str_ne(hr2d_operator_message(op), "");
+  hr2d_operator_destroy(op);
+  return status;
+}
+
 static void play(const char *name, fault_depth depth, fault_plan plan,
                  hr2d_status (*call)(fault_stage *, uint64_t *), int max) {
   const fault_act act = {
@@ -171,6 +202,13 @@ START_TEST(enclosures) {
 }
 END_TEST
 
+START_TEST(operators) {
+  play("operator", DEPTH_COMMITTED, PLAN_PAIR, operate, 60);
+  play("operator, occluded", DEPTH_COMMITTED, PLAN_ROOM, operate, 40);
+  play("operator, images", DEPTH_COMMITTED, PLAN_IMAGES, operate, 30);
+}
+END_TEST
+
 TEST_SUITE("faults of targets") {
-  ADD_TESTS("memory", targets, clusters, beams, predictions, enclosures);
+  ADD_TESTS("memory", targets, clusters, beams, predictions, enclosures, operators);
 }

@@ -28,6 +28,8 @@ typedef struct stage {
   char *bytes; /* a state or a scene */
   size_t size, at;
   double *field; /* an item per element */
+  hr2d_operator *op;
+  hr2d_solution *light; /* of it */
 } stage;
 
 typedef hr2d_status call_fn(stage *t);
@@ -191,6 +193,32 @@ static hr2d_status predict(stage *t) {
   return hr2d_predict(t->s.scene, NULL, &prediction);
 }
 
+static hr2d_status make_operator(stage *t) {
+  hr2d_operator *made = NULL;
+  const hr2d_status status = hr2d_operator_create(t->s.scene, NULL, &made, NULL);
+  hr2d_operator_destroy(made);
+  return status;
+}
+
+static hr2d_status solve_by_operator(stage *t) {
+  hr2d_solution *made = NULL;
+  const hr2d_status status = hr2d_operator_solve(t->op, NULL, NULL, &made, NULL);
+  hr2d_solution_destroy(made);
+  return status;
+}
+
+static hr2d_status respond(stage *t) {
+  double *column = calloc(hr2d_scene_patches(t->s.scene), sizeof *column);
+  const hr2d_status status = hr2d_operator_response(t->op, NULL, 0, 1, column);
+  free(column);
+  return status;
+}
+
+static hr2d_status differentiate(stage *t) {
+  hr2d_gradient none = HR2D_GRADIENT_INIT;
+  return hr2d_operator_gradient(t->op, t->light, NULL, NULL, &none);
+}
+
 static hr2d_status enclose(stage *t) {
   hr2d_enclosure *made = NULL;
   const hr2d_status status = hr2d_enclose(t->s.scene, NULL, &made, NULL);
@@ -312,6 +340,10 @@ static const struct {
                   {"hr2d_solve_to, in a time", solve_in_time},
                   {"hr2d_predict", predict},
                   {"hr2d_enclose", enclose},
+                  {"hr2d_operator_create", make_operator},
+                  {"hr2d_operator_solve", solve_by_operator},
+                  {"hr2d_operator_response", respond},
+                  {"hr2d_operator_gradient", differentiate},
                   {"hr2d_solution_error", find_error},
                   {"hr2d_solution_account", account},
                   {"hr2d_solution_gather", gather},
@@ -351,11 +383,17 @@ static void begin(stage *t) {
   ck_assert_int_eq(slow_add(t->open, SLOW_SQUARES, PATCHES), HR2D_OK);
   begin_set(t->s.scene, &t->new_tree, &t->new_links);
   begin_set(t->s.scene, &t->spare_tree, &t->spare);
+  const hr2d_target rough = {.struct_size = sizeof rough, .error = 0.1, .no_error = 1};
+  ck_assert_int_eq(hr2d_operator_create(t->s.scene, &rough, &t->op, NULL), HR2D_OK);
+  ck_assert_msg(!hr2d_operator_solve(t->op, NULL, NULL, &t->light, NULL), "%s",
+                hr2d_operator_message(t->op));
   t->field = calloc(hr2d_hierarchy_count(t->s.hierarchy).elements, sizeof *t->field);
   ck_assert_ptr_nonnull(t->field);
 }
 
 static void end(stage *t) {
+  hr2d_solution_destroy(t->light);
+  hr2d_operator_destroy(t->op);
   hr2d_linkset_destroy(t->new_links);
   hr2d_linkset_destroy(t->spare);
   hr2d_hierarchy_destroy(t->new_tree);

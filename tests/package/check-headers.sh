@@ -90,8 +90,8 @@ finds "a header that the page lacks" 'page alone: share\.h' "$work/page.md"
 sed -i 's/@warning Unstable interface/@warning/' "$work/headers/clusters.h"
 finds "a header that does not say so" 'page alone: clusters\.h' "$page"
 fresh
-sed -i '/^ \* - operator\.h:/d' "$work/headers/hr2d.h"
-finds "one that hr2d.h does not list" 'list of hr2d\.h: operator\.h' "$page"
+sed -i '/^ \* - transport\.h:/d' "$work/headers/hr2d.h"
+finds "one that hr2d.h does not list" 'list of hr2d\.h: transport\.h' "$page"
 fresh
 sed -i '/^\/\* Unstable interface/,$s/share\.h/scene.h/' "$work/headers/hr2d.h"
 finds "a stable one among the includes" 'includes of hr2d\.h: scene\.h' "$page"

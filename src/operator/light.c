@@ -1,0 +1,169 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* From a caller's light to that of the relit scene. */
+#include <math.h>
+#include <stdint.h>
+
+#include "base/sized-struct.h"
+#include "operator/operator-impl.h"
+
+hr2d_status hr2di_operator_light_of(hr2d_operator *op, const hr2d_light *given,
+                                    hr2d_light *light) {
+  *light = (hr2d_light)HR2D_LIGHT_INIT;
+  if (hr2di_sized_copy(light, sizeof *light, given))
+    return hr2di_message_fail(&op->message, HR2D_EINVAL, "struct_size is not set");
+  if (!light->count) light->count = 1;
+  if (light->count > SIZE_MAX / 16 / op->scene->bands)
+    return hr2di_message_fail(&op->message, HR2D_EINVAL, "there are too many lights");
+  return HR2D_OK;
+}
+
+static double at(const hr2d_operator *op, const hr2d_values *v, size_t light, size_t patch,
+                 size_t band) {
+  return hr2di_values_at(v, hr2di_scene_cell(op->scene), op->scene->bands, light, patch, band);
+}
+
+/* A temperature or a flux, which has no bands. */
+static double heat_at(const hr2d_operator *op, const hr2d_values *v, size_t light,
+                      size_t patch) {
+  return hr2di_values_at(v, hr2di_scene_cell(op->scene), 1, light, patch, 0);
+}
+
+/* A value that is not valid: "light 0: emission of patch 3 ("wall") is -1: at least 0". */
+static hr2d_status refuse(hr2d_operator *op, size_t light, const char *what, size_t patch,
+                          double value, const char *why) {
+  return hr2di_message_fail(&op->message, HR2D_EINVAL, "light %zu: %s of %s is %g: %s", light,
+                            what, hr2di_patch_label(op->scene, patch).text, value, why);
+}
+
+/* E or ρ of a patch in all bands of a light. */
+static hr2d_status take_surface(hr2d_operator *op, const hr2d_values *v, int is_emission,
+                                size_t light, size_t k) {
+  const size_t bands = op->scene->bands;
+  const hr2d_heat heat = hr2d_scene_heat(op->scene, k, NULL);
+  const int none = is_emission ? heat != HR2D_HEAT_NONE : heat == HR2D_HEAT_FLUX;
+  const char *what = is_emission ? "emission" : "reflectance";
+  double *to = is_emission ? hr2di_relit_emission(op->kept->relit, k)
+                           : hr2di_relit_reflectance(op->kept->relit, k);
+  for (size_t b = 0; b < bands && v->value; b++) {
+    const double value = at(op, v, light, k, b);
+    if (none && isnan(value)) continue;
+    if (none)
+      return refuse(op, light, what, k, value,
+                    heat == HR2D_HEAT_FLUX ? "it has a flux; NaN leaves it"
+                                           : "it has a temperature; NaN leaves it");
+    if (!(value >= 0 && value <= (is_emission ? HUGE_VAL : 1)) || !isfinite(value))
+      return refuse(op, light, what, k, value,
+                    is_emission ? "it must be at least 0, and finite"
+                                : "it must be from 0 to 1");
+    to[light * bands + b] = value;
+  }
+  return HR2D_OK;
+}
+
+/* E = (1 − ρ)σT⁴, as in thermal.c, for a temperature and ρ that may both be new. */
+static void emit(hr2d_operator *op, size_t light, size_t k, double kelvin) {
+  hr2d_scene *relit = op->kept->relit;
+  const size_t bands = op->scene->bands;
+  double *emission = hr2di_relit_emission(relit, k) + light * bands;
+  const double *rho = hr2di_relit_reflectance(relit, k) + light * bands;
+  for (size_t b = 0; b < bands; b++)
+    emission[b] =
+        (1 - rho[b]) * (hr2di_scene_band_part(op->scene, kelvin, b) * hr2d_black_body(kelvin));
+}
+
+static hr2d_status take_temperature(hr2d_operator *op, const hr2d_light *from, size_t light,
+                                    size_t k) {
+  double kelvin;
+  const int has = hr2d_scene_heat(op->scene, k, &kelvin) == HR2D_HEAT_TEMPERATURE;
+  const double given =
+      from->temperature.value ? heat_at(op, &from->temperature, light, k) : NAN;
+  if (!has && !isnan(given))
+    return refuse(op, light, "temperature", k, given, "it has none; NaN leaves it");
+  if (!has || (!from->temperature.value && !from->reflectance.value)) return HR2D_OK;
+  if (from->temperature.value) {
+    if (!(given >= 0) || !isfinite(hr2d_black_body(given)))
+      return refuse(op, light, "temperature", k, given, "it must be kelvins, at least 0");
+    kelvin = given;
+  }
+  op->kept->relit->patch[k].light->given = kelvin;
+  emit(op, light, k, kelvin);
+  return HR2D_OK;
+}
+
+/* In one band B = H + q: E is q where ρ is 1. */
+static hr2d_status take_flux(hr2d_operator *op, const hr2d_light *from, size_t light,
+                             size_t k) {
+  const int has = hr2d_scene_heat(op->scene, k, NULL) == HR2D_HEAT_FLUX;
+  if (!from->flux.value) return HR2D_OK;
+  const double given = heat_at(op, &from->flux, light, k);
+  if (!has && isnan(given)) return HR2D_OK;
+  if (!has) return refuse(op, light, "flux", k, given, "it has none; NaN leaves it");
+  if (!isfinite(given)) return refuse(op, light, "flux", k, given, "it must be finite");
+  op->kept->relit->patch[k].light->given = given;
+  hr2di_relit_emission(op->kept->relit, k)[light] = given;
+  return HR2D_OK;
+}
+
+static hr2d_status refuse_outside(hr2d_operator *op, size_t light, const char *what,
+                                  double value, const char *why) {
+  return hr2di_message_fail(&op->message, HR2D_EINVAL, "light %zu: %s is %g: %s", light, what,
+                            value, why);
+}
+
+static int is_light(double value) {
+  return value >= 0 && isfinite(value);
+}
+
+/* Background, sun and sky of a light in one band. */
+static hr2d_status take_outside(hr2d_operator *op, const hr2d_light *from, size_t light,
+                                size_t band) {
+  hr2d_scene *relit = op->kept->relit;
+  const size_t bands = op->scene->bands, to = light * bands + band, pieces = relit->sky.pieces;
+  const int looked = op->eq.transport.sky != NULL;
+  if (from->background.value) {
+    const double value = hr2di_values_at(&from->background, 1, bands, light, 0, band);
+    if (!is_light(value) || (value > 0 && !looked))
+      return refuse_outside(op, light, "the background", value,
+                            is_light(value) ? "the scene has none, and is not forced to look"
+                                            : "it must be at least 0, and finite");
+    relit->background[to] = value;
+  }
+  if (from->sun.value) {
+    const double value = hr2di_values_at(&from->sun, 1, bands, light, 0, band);
+    if (!is_light(value) || (value > 0 && !relit->sun))
+      return refuse_outside(op, light, "the irradiance of the sun", value,
+                            is_light(value) ? "the scene has no sun"
+                                            : "it must be at least 0, and finite");
+    if (relit->sun) relit->sun[to].irradiance = value;
+  }
+  for (size_t k = 0; k < pieces && from->sky.value; k++) {
+    const double value = hr2di_values_at(&from->sky, pieces, bands, light, k, band);
+    if (!is_light(value))
+      return refuse_outside(op, light, "a piece of the sky", value,
+                            "it must be at least 0, and finite");
+    relit->sky.value[k * relit->sky.bands + to] = value;
+  }
+  return HR2D_OK;
+}
+
+static hr2d_status take(hr2d_operator *op, const hr2d_light *from) {
+  hr2d_status status = HR2D_OK;
+  for (size_t light = 0; light < from->count; light++) {
+    for (size_t k = 0; k < hr2di_scene_cell(op->scene) && !status; k++) {
+      status = take_surface(op, &from->emission, 1, light, k);
+      if (!status) status = take_surface(op, &from->reflectance, 0, light, k);
+      if (!status) status = take_temperature(op, from, light, k);
+      if (!status) status = take_flux(op, from, light, k);
+    }
+    for (size_t band = 0; band < op->scene->bands && !status; band++)
+      status = take_outside(op, from, light, band);
+  }
+  return status;
+}
+
+hr2d_status hr2di_operator_relight(hr2d_operator *op, const hr2d_light *light) {
+  const hr2d_status status = hr2di_operator_resize(op, light->count);
+  if (status) return status;
+  hr2di_relit_renew(op->kept->relit, op->scene);
+  return take(op, light);
+}

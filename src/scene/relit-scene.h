@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A scene with other light: E and ρ of its patches and the light from outside are its own, and
+   can be changed although it is committed.  It shares everything else with a committed scene,
+   its lender, which must outlive it.  Images have the light of their patches.
+
+   It may have a multiple of the lender's bands: several lights in one, one after the other.
+   What is not changed repeats. */
+#ifndef HR2D_SRC_SCENE_RELIT_SCENE_H
+#define HR2D_SRC_SCENE_RELIT_SCENE_H
+
+#include "scene/scene-impl.h"
+
+/* Makes one with the light of `scene`, which may be one itself, `times` times as many bands as
+   its lender's.  No patch counts as dark, and light is always reflected: so elements and links
+   do for any light.  HR2D_OK or HR2D_ENOMEM. */
+hr2d_status hr2di_relit_create(const hr2d_scene *scene, size_t times, hr2d_scene **relit);
+
+/* Takes the light of a scene of as many bands, or of a part of them, which repeat. */
+void hr2di_relit_renew(hr2d_scene *relit, const hr2d_scene *scene);
+
+/* Also for scenes of frozen temperatures; NULL is allowed. */
+void hr2di_relit_destroy(hr2d_scene *relit);
+
+/* The values of a patch, bands each; those of an image are its patch's. */
+double *hr2di_relit_emission(hr2d_scene *relit, size_t patch);
+double *hr2di_relit_reflectance(hr2d_scene *relit, size_t patch);
+
+#endif
