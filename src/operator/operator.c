@@ -126,20 +126,27 @@ static int is_reached(const hr2d_target *target, const hr2di_error_pair *e) {
 
 static const hr2d_error unknown = {HUGE_VAL, HUGE_VAL};
 
+/* The finer operator, which the first account makes. */
+static hr2d_status need_finer(hr2d_operator *op) {
+  if (op->has_finer) {
+    hr2di_operator_watch(op, &op->finer.estimator.eq);
+    op->finer.estimator.part.transport.failed = HR2D_OK;
+    return HR2D_OK;
+  }
+  const hr2d_status status =
+      hr2di_finer_init(&op->finer, &op->graded, &op->fineness, &op->target);
+  op->has_finer = !status;
+  if (status) hr2di_finer_clear(&op->finer);
+  return status;
+}
+
 /* The errors of a solution for the light that the relit scene has.  The exponent of corners is
    known for the reflectances of the scene; for other ones that counts which shows least. */
 static hr2d_status measure(hr2d_operator *op, const hr2d_solution *solution, int reflects,
                            hr2d_account *account) {
   const double start = hr2di_clock_now();
   hr2di_error_pair e;
-  hr2d_status status = HR2D_OK;
-  if (!op->has_finer) {
-    op->has_finer = 1;
-    status = hr2di_finer_init(&op->finer, &op->graded, &op->fineness, &op->target);
-  } else {
-    hr2di_operator_watch(op, &op->finer.estimator.eq);
-    op->finer.estimator.part.transport.failed = HR2D_OK;
-  }
+  hr2d_status status = need_finer(op);
   op->finer.estimator.exponent = reflects ? 0 : op->graded.survey.exponent;
   if (!status) status = hr2di_finer_measure(&op->finer, solution, &e);
   account->error_seconds = hr2di_clock_now() - start;
