@@ -93,6 +93,7 @@ hr2d_status hr2di_relit_create(const hr2d_scene *scene, size_t times, hr2d_scene
   made->sky.value = NULL;
   made->dark = NULL;
   made->effect[HR2D_EFFECT_INTERREFLECTION].on = 1;
+  made->effect[HR2D_EFFECT_INTERREFLECTION].called_for = 1;
   hr2d_status status = make_lights(made, scene);
   if (!status) status = make_outside(made, scene);
   if (status) {

@@ -240,7 +240,7 @@ hr2d_status hr2di_background_set_order_p(hr2di_transport *t, unsigned char **see
     status = hr2di_back_visibility(t->hierarchy->scene, &t->alloc, t->threads, sees, t->watch);
   if (!status && *sees) status = take_all_backs(t, *sees);
   if (t->links->share) status = combine_rows(t, status);
-  hr2di_image_map_spread_leaves(&t->image_map, t->order, 1, t->sky);
+  if (!status) hr2di_image_map_spread_leaves(&t->image_map, t->order, 1, t->sky);
   if (!status) clear_closed(t);
   if (!status && hr2di_symmetry_cuts(&t->hierarchy->scene->symmetry)) status = clear_unknown(t);
   return status;

@@ -20,7 +20,7 @@
 
 /* Where nothing reflects, closure has nothing to correct. */
 static int reflects(const hr2d_scene *scene) {
-  return scene->effect[HR2D_EFFECT_INTERREFLECTION].on;
+  return scene->effect[HR2D_EFFECT_INTERREFLECTION].called_for;
 }
 
 /* At an order above 1.  The background needs closed rows: what K lacks elsewhere would

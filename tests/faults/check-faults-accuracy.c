@@ -124,6 +124,7 @@ static hr2d_status mix_operator(hr2d_operator *op, uint64_t *sum) {
 static hr2d_status operate(fault_stage *s, uint64_t *sum) {
   hr2d_target target = HR2D_TARGET_INIT;
   target.error = 0.1;
+  target.max_bytes = 1 << 30; /* no views are kept, for which a call does without memory */
   hr2d_operator *op = (hr2d_operator *)s;
   hr2d_status status = hr2d_operator_create(s->scene, &target, &op, NULL);
   if (status) {
