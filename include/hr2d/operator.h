@@ -68,9 +68,12 @@ typedef struct hr2d_light {
                          else, for all others */
   hr2d_values background; /**< k × 1 × bands: radiosity of the surroundings; above 0 only if the
                                scene has an even background, or is forced to look for one */
-  hr2d_values sun;        /**< k × 1 × bands: irradiance of the suns, whose directions stay */
-  hr2d_values sky;        /**< k × pieces × bands: radiosity of the pieces of the sky */
-  int no_error;           /**< not 0: the account is left out; its errors are infinite */
+  hr2d_values sun; /**< k × 1 × bands: irradiance of the suns, whose directions stay; above 0
+                        only in bands in which the sun of the scene shines */
+  hr2d_values sky; /**< k × pieces × bands: radiosity of the pieces of the sky. This and
+                        `background` can be changed if the sky of the scene jumps at all edges
+                        of pieces, where elements end; and not under mirrors */
+  int no_error;    /**< not 0: the account is left out; its errors are infinite */
 } hr2d_light;
 
 /** The light of the scene. */
@@ -97,7 +100,8 @@ HR2D_API void hr2d_light_init(hr2d_light *light, size_t size);
  *                 is NULL, or one alone
  * @param op       receives the operator, also with HR2D_EACCURACY if there are elements of
  *                 known error, otherwise NULL; the caller destroys it
- * @param account  receives the errors and the work for the light of the scene; may be NULL
+ * @param account  receives the errors and the work for the light of the scene; infinite errors
+ *                 without an operator; may be NULL
  * @retval HR2D_EUNSUPPORTED  temperatures of patches of given flux would have to be found in
  *                            several bands; or there are several shares
  * @retval other              as hr2d_solve_to()
@@ -130,11 +134,13 @@ HR2D_API const char *hr2d_operator_message(const hr2d_operator *op);
  *                           hr2d_account::reason. The solution and its errors are good; for
  *                           smaller ones make an operator of a scene with such light
  * @retval HR2D_EINVAL       a value is not valid; see hr2d_operator_message()
+ * @retval HR2D_ESTATE       the call comes from a callback of a call on this operator
  * @retval other             as hr2d_solve()
  *
- * The errors are those on these elements, as for hr2d_solve_to(). Cost: O(L) for each of a
- * dozen gathers, and as many with two coefficients more for the account. Where the number of
- * lights or the suns change, light from outside is made anew.
+ * On failure `account` is unchanged. A start that is far brighter than the new light costs
+ * digits. The errors are those on these elements, as for hr2d_solve_to(). Cost: O(L) for each
+ * of a dozen gathers, and as many with two coefficients more for the account. Where the number
+ * of lights or the suns change, light from outside is made anew.
  */
 HR2D_API hr2d_status hr2d_operator_solve(hr2d_operator *op, const hr2d_light *light,
                                          const hr2d_solution *start, hr2d_solution **solution,
@@ -188,7 +194,8 @@ HR2D_API void hr2d_gradient_init(hr2d_gradient *gradient, size_t size);
  * @param v         1 × patches × bands: weights of B; its value may be NULL: 0
  * @param w         likewise of H
  * @param gradient  its arrays receive the derivatives
- * @return as hr2d_solve(), or HR2D_EINVAL
+ * @return as hr2d_solve(), or HR2D_EINVAL; HR2D_ENO_SOLUTION where light that is sent anywhere
+ *         would have no solution
  *
  * The derivatives are those of the numbers that hr2d_operator_solve() gives on these elements,
  * to the tolerance of the iteration. Cost: one solve without an account, for all of them.

@@ -268,6 +268,7 @@ typedef struct hr2d_temperatures {
  * @retval HR2D_OK      success
  * @retval HR2D_ENOMEM  an allocation failed; with important patches only
  * @retval HR2D_EINVAL  a `struct_size` is not set, or `target` is not valid
+ * @retval HR2D_EUNSUPPORTED  the solution is one of several lights of an operator
  *
  * Cost O(n·bands).
  */

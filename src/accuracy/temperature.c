@@ -149,6 +149,7 @@ hr2d_status hr2d_solution_temperatures(const hr2d_solution *solution, const hr2d
                                        const hr2d_temperatures *temperatures) {
   if (!solution) return HR2D_EINVAL;
   const hr2d_scene *scene = hr2di_solution_scene(solution);
+  if (scene->lender && scene->bands > scene->lender->bands) return HR2D_EUNSUPPORTED;
   hr2d_target target;
   hr2d_temperatures to = HR2D_TEMPERATURES_INIT;
   if (!temperatures || hr2di_sized_copy(&to, sizeof to, temperatures)) return HR2D_EINVAL;

@@ -12,6 +12,7 @@
 #include "base/sized-struct.h"
 #include "operator/operator-impl.h"
 #include "solution/solution-impl.h"
+#include "solve/existence.h"
 
 /* The primal H and the adjoint u on leaves, both as coefficients. */
 typedef struct adjoint {
@@ -144,12 +145,20 @@ static hr2d_status differentiate(adjoint *a, const hr2d_solution *solution, hr2d
   return HR2D_OK;
 }
 
-/* The relit scene gets the light of the solution. */
+/* The relit scene gets the light of the solution.  X exists if B does wherever light is sent.
+ */
 static hr2d_status return_to(hr2d_operator *op, const hr2d_solution *solution) {
   const hr2d_status status = hr2di_operator_resize(op, 1);
+  hr2d_scene *relit = op->kept->relit;
+  hr2di_watch watch;
   if (status) return status;
-  hr2di_relit_renew(op->kept->relit, solution->own_scene);
-  return hr2di_operator_begin(op);
+  hr2di_relit_renew(relit, solution->own_scene);
+  for (size_t k = 0; k < hr2di_scene_cell(relit); k++)
+    for (size_t b = 0; b < relit->bands; b++) hr2di_relit_emission(relit, k)[b] = 1;
+  hr2di_scene_watch(op->scene, &watch, op->target.progress, op->target.progress_ctx, "rows");
+  const hr2d_status exists = hr2di_existence_check(op->kept->links, relit, &watch);
+  hr2di_relit_renew(relit, solution->own_scene);
+  return exists ? exists : hr2di_operator_begin(op);
 }
 
 static hr2d_status check(hr2d_operator *op, const hr2d_solution *solution,
@@ -169,14 +178,15 @@ hr2d_status hr2d_operator_gradient(hr2d_operator *op, const hr2d_solution *solut
                                    hr2d_gradient *gradient) {
   if (!op || !solution || !gradient) return HR2D_EINVAL;
   hr2d_gradient to = HR2D_GRADIENT_INIT;
-  hr2di_operator_clear_message(op);
-  hr2d_status status = check(op, solution, gradient, &to);
+  hr2d_status status = hr2di_operator_enter(op);
   if (status) return status;
+  status = check(op, solution, gradient, &to);
+  if (status) return hr2di_operator_end(op, status);
   const size_t count = hr2di_scene_cell(op->scene) * op->scene->bands;
   adjoint a = {.op = op, .v = v, .w = w};
   status = check_weights(&a);
   if (!status) status = return_to(op, solution);
-  if (status) return hr2di_operator_told(op, status);
+  if (status) return hr2di_operator_end(op, status);
   const hr2d_allocator *alloc = &op->scene->alloc;
   double *emission = to.emission ? NULL : hr2di_alloc(alloc, count, sizeof *emission);
   a.irradiance = hr2di_alloc(alloc, op->eq.field, sizeof *a.irradiance);
@@ -187,5 +197,5 @@ hr2d_status hr2d_operator_gradient(hr2d_operator *op, const hr2d_solution *solut
   hr2di_alloc_free(alloc, emission);
   hr2di_alloc_free(alloc, a.irradiance);
   hr2di_alloc_free(alloc, a.exponent);
-  return hr2di_operator_told(op, status);
+  return hr2di_operator_end(op, status);
 }

@@ -1,10 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* From a caller's light to that of the relit scene. */
+#include <hr2d/symmetry.h>
 #include <math.h>
 #include <stdint.h>
 
 #include "base/sized-struct.h"
 #include "operator/operator-impl.h"
+#include "solve/external-irradiance.h"
+
+/* Beside the edge of a piece, in degrees. */
+#define BESIDE 1e-7
 
 hr2d_status hr2di_operator_light_of(hr2d_operator *op, const hr2d_light *given,
                                     hr2d_light *light) {
@@ -31,8 +36,8 @@ static double heat_at(const hr2d_operator *op, const hr2d_values *v, size_t ligh
 /* A value that is not valid: "light 0: emission of patch 3 ("wall") is -1: at least 0". */
 static hr2d_status refuse(hr2d_operator *op, size_t light, const char *what, size_t patch,
                           double value, const char *why) {
-  return hr2di_message_fail(&op->message, HR2D_EINVAL, "light %zu: %s of %s is %g: %s", light,
-                            what, hr2di_patch_label(op->scene, patch).text, value, why);
+  return hr2di_message_fail(&op->message, HR2D_EINVAL, "light %zu: %s of %s is %.10g: %s",
+                            light, what, hr2di_patch_label(op->scene, patch).text, value, why);
 }
 
 /* E or ρ of a patch in all bands of a light. */
@@ -106,8 +111,8 @@ static hr2d_status take_flux(hr2d_operator *op, const hr2d_light *from, size_t l
 
 static hr2d_status refuse_outside(hr2d_operator *op, size_t light, const char *what,
                                   double value, const char *why) {
-  return hr2di_message_fail(&op->message, HR2D_EINVAL, "light %zu: %s is %g: %s", light, what,
-                            value, why);
+  return hr2di_message_fail(&op->message, HR2D_EINVAL, "light %zu: %s is %.10g: %s", light,
+                            what, value, why);
 }
 
 static int is_light(double value) {
@@ -130,9 +135,9 @@ static hr2d_status take_outside(hr2d_operator *op, const hr2d_light *from, size_
   }
   if (from->sun.value) {
     const double value = hr2di_values_at(&from->sun, 1, bands, light, 0, band);
-    if (!is_light(value) || (value > 0 && !relit->sun))
+    if (!is_light(value) || (value > 0 && !(hr2d_scene_sun(op->scene, band).irradiance > 0)))
       return refuse_outside(op, light, "the irradiance of the sun", value,
-                            is_light(value) ? "the scene has no sun"
+                            is_light(value) ? "the scene has no sun that shines in this band"
                                             : "it must be at least 0, and finite");
     if (relit->sun) relit->sun[to].irradiance = value;
   }
@@ -146,8 +151,35 @@ static hr2d_status take_outside(hr2d_operator *op, const hr2d_light *from, size_
   return HR2D_OK;
 }
 
+/* Elements end where an edge of the sky comes into sight, but only at edges at which the sky of
+   the scene jumps; and under mirrors it has to stay symmetric. */
+static hr2d_status check_sky(hr2d_operator *op, const hr2d_light *from) {
+  const hr2d_scene *scene = op->scene;
+  if (!scene->sky.pieces || (!from->sky.value && !from->background.value)) return HR2D_OK;
+  if (!hr2di_external_has_pieces(scene) || !scene->effect[HR2D_EFFECT_BACKGROUND].on)
+    return hr2di_message_fail(&op->message, HR2D_EINVAL,
+                              "the sky of the scene has no light: it stays as it is");
+  if (hr2d_scene_mirrors(scene) > 0)
+    return hr2di_message_fail(&op->message, HR2D_EINVAL,
+                              "under mirrors the pieces of the sky stay as they are");
+  for (size_t k = 0; k < 2 * scene->sky.pieces; k++) {
+    const hr2d_sky_piece *p = &scene->sky.piece[k / 2];
+    const double edge = k % 2 ? p->to : p->from;
+    double jump = 0;
+    for (size_t b = 0; b < scene->bands; b++)
+      jump = fmax(jump, fabs(hr2d_scene_sky(scene, edge + BESIDE, b) -
+                             hr2d_scene_sky(scene, edge - BESIDE, b)));
+    if (!(jump > 0))
+      return hr2di_message_fail(&op->message, HR2D_EINVAL,
+                                "the sky of the scene does not change at the bearing %.10g, so "
+                                "that elements do not end there: give it a jump in the scene",
+                                edge);
+  }
+  return HR2D_OK;
+}
+
 static hr2d_status take(hr2d_operator *op, const hr2d_light *from) {
-  hr2d_status status = HR2D_OK;
+  hr2d_status status = check_sky(op, from);
   for (size_t light = 0; light < from->count; light++) {
     for (size_t k = 0; k < hr2di_scene_cell(op->scene) && !status; k++) {
       status = take_surface(op, &from->emission, 1, light, k);

@@ -30,9 +30,11 @@ struct hr2d_operator {
   size_t count;               /* lights in the relit scene, and in both equations */
   hr2di_equation eq;
   hr2di_finer finer;
-  int is_made;       /* the equation is to be cleared, */
-  int has_finer;     /* and so is the other one */
-  hr2d_account base; /* order, elements and links */
+  int is_made;   /* the equation is to be cleared, */
+  int has_finer; /* and so is the other one */
+  hr2d_account
+      base; /* order, elements and links; why the scene's own light misses the target */
+  int busy; /* a call is under way: one that comes from its callback is refused */
   hr2di_message message;
 };
 
@@ -60,13 +62,12 @@ hr2d_status hr2di_operator_begin(hr2d_operator *op);
 hr2d_status hr2di_operator_light_of(hr2d_operator *op, const hr2d_light *given,
                                     hr2d_light *light);
 
-/* Nothing has failed yet. */
-static inline void hr2di_operator_clear_message(hr2d_operator *op) {
-  op->message.text[0] = op->kept->links->message.text[0] = '\0';
-}
+/* Begins a call, which hr2di_operator_end() ends; HR2D_OK, or HR2D_ESTATE within another one.
+ */
+hr2d_status hr2di_operator_enter(hr2d_operator *op);
 
 /* Returns a status, which gets a message if it has none yet. */
-hr2d_status hr2di_operator_told(hr2d_operator *op, hr2d_status status);
+hr2d_status hr2di_operator_end(hr2d_operator *op, hr2d_status status);
 
 /* A value of an array whose packed shape is … × n × bands. */
 static inline double hr2di_values_at(const hr2d_values *v, size_t n, size_t bands, size_t light,

@@ -41,7 +41,15 @@ const char *hr2d_operator_message(const hr2d_operator *op) {
   return op ? op->message.text : "";
 }
 
-hr2d_status hr2di_operator_told(hr2d_operator *op, hr2d_status status) {
+hr2d_status hr2di_operator_enter(hr2d_operator *op) {
+  if (op->busy) return HR2D_ESTATE;
+  op->busy = 1;
+  op->message.text[0] = op->kept->links->message.text[0] = '\0';
+  return HR2D_OK;
+}
+
+hr2d_status hr2di_operator_end(hr2d_operator *op, hr2d_status status) {
+  op->busy = 0;
   if (!status || op->message.text[0]) return status;
   const char *own = hr2d_linkset_message(op->kept->links);
   return hr2di_message_fail(&op->message, status, "%s", *own ? own : hr2d_strerror(status));
@@ -61,6 +69,7 @@ static hr2d_status keep(hr2d_operator *op, hr2di_graded *best, const hr2d_accoun
                             .events = account->events,
                             .bytes = account->bytes,
                             .solves = 1};
+  hr2di_message_copy(op->base.reason, sizeof op->base.reason, account->reason);
   op->enough =
       (hr2di_stopping_test){.part = op->fineness.relative, .floor = op->fineness.floor};
   op->count = 1;
@@ -106,6 +115,14 @@ hr2d_status hr2d_operator_create(const hr2d_scene *scene, const hr2d_target *tar
         hr2di_solve_for_operator(made->kept->relit, &alone, &best, &made->fineness, &found);
   const hr2d_status reached = status;
   if (best.solution) status = keep(made, &best, &found);
+  if (!made->kept || !made->kept->links)
+    found.average = found.sup = found.irradiance = found.irradiance_sup =
+        (hr2d_error){HUGE_VAL, HUGE_VAL};
+  if (reached == HR2D_EUNSUPPORTED)
+    hr2di_message_copy(
+        found.reason, sizeof found.reason,
+        "an operator finds no temperatures of given fluxes in several bands, and "
+        "is not shared");
   if (account) *account = found;
   if (status || !made->kept->links)
     hr2d_operator_destroy(made);
@@ -159,8 +176,10 @@ static hr2d_status measure(hr2d_operator *op, const hr2d_solution *solution, int
   }
   if (is_reached(&op->target, &e)) return HR2D_OK;
   hr2di_message_copy(account->reason, sizeof account->reason,
-                     "the elements were made for other light and do not suffice for this one: "
-                     "make an operator of a scene with such light");
+                     op->base.reason[0]
+                         ? op->base.reason
+                         : "the elements were made for other light and do not suffice for this "
+                           "one: make an operator of a scene with such light");
   return HR2D_EACCURACY;
 }
 
@@ -210,17 +229,20 @@ hr2d_status hr2d_operator_solve(hr2d_operator *op, const hr2d_light *given,
   if (!op || !solution) return HR2D_EINVAL;
   hr2d_light light;
   hr2d_solution *made = NULL;
-  hr2di_operator_clear_message(op);
+  hr2d_status status = hr2di_operator_enter(op);
+  if (status) return status;
   hr2d_account found = op->base;
+  found.reason[0] = '\0';
   found.average = found.irradiance = unknown;
   found.sup = found.irradiance_sup = op->target.points ? unknown : (hr2d_error){NAN, NAN};
-  hr2d_status status = hr2di_operator_light_of(op, given, &light);
+  status = hr2di_operator_light_of(op, given, &light);
   if (!status) status = solve(op, &light, start, &made, &found);
   if (!status || status == HR2D_EACCURACY) {
     *solution = made;
     if (account) *account = found;
+    op->busy = 0;
     return status;
   }
   hr2d_solution_destroy(made);
-  return hr2di_operator_told(op, status);
+  return hr2di_operator_end(op, status);
 }

@@ -63,17 +63,18 @@ hr2d_status hr2d_operator_response(hr2d_operator *op, const hr2d_light *given, s
                                    size_t columns, double *response) {
   hr2d_light light;
   if (!op || !response) return HR2D_EINVAL;
-  hr2di_operator_clear_message(op);
   const size_t patches = hr2di_scene_cell(op->scene);
-  hr2d_status status = hr2di_operator_light_of(op, given, &light);
+  hr2d_status status = hr2di_operator_enter(op);
   if (status) return status;
-  if (light.count > 1 || first > patches || columns > patches - first)
-    return hr2di_message_fail(&op->message, HR2D_EINVAL,
-                              "columns are those of patches, and the light is one");
+  status = hr2di_operator_light_of(op, given, &light);
+  if (!status && (light.count > 1 || first > patches || columns > patches - first))
+    status = hr2di_message_fail(&op->message, HR2D_EINVAL,
+                                "columns are those of patches, and the light is one");
+  if (status) return hr2di_operator_end(op, status);
   hr2d_light all = HR2D_LIGHT_INIT;
   all.count = AT_ONCE;
   all.reflectance = light.reflectance;
   repeat(&all.reflectance, op->scene->bands);
   status = respond(op, &all, first, columns, response);
-  return hr2di_operator_told(op, status);
+  return hr2di_operator_end(op, status);
 }

@@ -353,7 +353,7 @@ static void expect(hr2d_operator *op, const hr2d_light *light, const char *phras
 
 START_TEST(values_that_are_not_valid_are_named) {
   const double nan[] = {1, NAN, 1, 1, 1, 1}, minus[] = {1, 1, 1, -1, 1, 1},
-               many[] = {0, 0, 1.5, 0, 0, 0}, one = 1;
+               many[] = {0, 0, 1.5, 0, 0, 0}, near[] = {1, 1.0000001, 1, 1, 1, 1}, one = 1;
   randoms r = randoms_stream(test_seed(), 70);
   paint first;
   draw(&first, &r);
@@ -379,9 +379,103 @@ START_TEST(values_that_are_not_valid_are_named) {
   light.background.value = NULL;
   light.sun.value = &one;
   expect(op, &light, "the scene has no sun");
+  light.sun.value = NULL;
+  light.reflectance.value = near;
+  expect(op, &light, "reflectance of patch 1 is 1.0000001:");
   hr2d_solution *own = solve(op, NULL, NULL); /* it can be used all the same */
   ck_assert_str_eq(hr2d_operator_message(op), "");
   hr2d_solution_destroy(own);
+  hr2d_operator_destroy(op);
+  hr2d_scene_destroy(scene);
+}
+END_TEST
+
+/* Light for which no elements were made, and which the scene cannot have. */
+START_TEST(light_that_elements_do_not_know_is_refused) {
+  static const hr2d_sky_piece piece[] = {{-50, -10}, {20, 60}}, even[] = {{-60, -20}, {20, 60}};
+  const double same[] = {1, 1}, jumps[] = {.5, 2}, both[] = {2, 2}, dark[] = {0, 0}, one = 1;
+  const double *const sky[] = {same, dark, both, jumps};
+  const char *const why[] = {"does not change at the bearing", "has no light",
+                             "under mirrors the pieces", NULL};
+  const hr2d_segment mirror = {{0, 0}, {0, 1}},
+                     wall_at[] = {{{.5, 0}, {4, 0}}, {{2, 1}, {1, 1}}};
+  for (int k = 0; k < 4; k++) {
+    hr2d_scene *scene = test_new_scene(NULL);
+    for (int m = 0; m < 2; m++)
+      ck_assert_int_eq(test_add_patch(scene, wall_at[m], 1 - m, .5, HR2D_SIDES_FRONT), HR2D_OK);
+    if (k != 1) ck_assert_int_eq(hr2d_scene_set_background(scene, &one, 1), HR2D_OK);
+    if (k == 2) ck_assert_int_eq(hr2d_scene_add_mirror(scene, mirror), HR2D_OK);
+    ck_assert_int_eq(hr2d_scene_set_sky(scene, k == 2 ? even : piece, 2, sky[k], 1), HR2D_OK);
+    test_commit(scene);
+    hr2d_operator *op = operate(scene, 1e-4);
+    hr2d_light light = HR2D_LIGHT_INIT;
+    light.sky.value = jumps;
+    if (why[k])
+      expect(op, &light, why[k]);
+    else
+      hr2d_solution_destroy(solve(op, &light, NULL));
+    hr2d_operator_destroy(op);
+    hr2d_scene_destroy(scene);
+  }
+}
+END_TEST
+
+/* A call from a callback of another one is refused, and harms nothing. */
+typedef struct intruder {
+  hr2d_operator *op;
+  int refused;
+} intruder;
+
+static hr2d_status intrude(void *ctx, const hr2d_progress *progress) {
+  (void)progress;
+  intruder *i = ctx;
+  hr2d_solution *none = NULL;
+  double response[WALLS];
+  i->refused += hr2d_operator_solve(i->op, NULL, NULL, &none, NULL) == HR2D_ESTATE;
+  i->refused += hr2d_operator_response(i->op, NULL, 0, 1, response) == HR2D_ESTATE;
+  return HR2D_OK;
+}
+
+START_TEST(calls_from_callbacks_are_refused) {
+  randoms r = randoms_stream(test_seed(), 90);
+  paint first;
+  draw(&first, &r);
+  hr2d_scene *scene = make(CLOSED, &first, 1);
+  hr2d_operator *op = operate(scene, 1e-4);
+  intruder i = {op, 0};
+  hr2d_solution *alone = solve(op, NULL, NULL);
+  hr2d_scene_set_progress(scene, intrude, &i);
+  hr2d_solution *disturbed = solve(op, NULL, NULL);
+  hr2d_scene_set_progress(scene, NULL, NULL);
+  ck_assert_int_gt(i.refused, 1);
+  ck_assert_mem_eq(hr2d_solution_field(alone), hr2d_solution_field(disturbed),
+                   hr2d_solution_field_size(alone) * sizeof(double));
+  hr2d_solution_destroy(alone);
+  hr2d_solution_destroy(disturbed);
+  hr2d_operator_destroy(op);
+  hr2d_scene_destroy(scene);
+}
+END_TEST
+
+/* With ρ = 1 everywhere light that is sent has no solution; in the dark B = 0 has no gradient.
+ */
+START_TEST(a_gradient_without_an_adjoint_is_refused) {
+  paint white = {.emission = {0}}, grey = white;
+  for (int k = 0; k < WALLS; k++) white.reflectance[k] = 1;
+  for (int k = 0; k < WALLS; k++) grey.reflectance[k] = 0.5;
+  hr2d_scene *scene = make(CLOSED, &grey, 1);
+  hr2d_operator *op = operate(scene, 1e-4);
+  const hr2d_light light = light_of(CLOSED, &white);
+  double emission[WALLS];
+  const hr2d_values weights = {grey.reflectance, {0, 0, 0}};
+  hr2d_gradient gradient = HR2D_GRADIENT_INIT;
+  gradient.emission = emission;
+  for (int k = 0; k < 2; k++) {
+    hr2d_solution *dark = solve(op, k ? NULL : &light, NULL);
+    ck_assert_int_eq(hr2d_operator_gradient(op, dark, &weights, NULL, &gradient),
+                     k ? HR2D_OK : HR2D_ENO_SOLUTION);
+    hr2d_solution_destroy(dark);
+  }
   hr2d_operator_destroy(op);
   hr2d_scene_destroy(scene);
 }
@@ -484,5 +578,7 @@ TEST_SUITE("operator") {
                the_same_light_has_the_same_bits, superposition_of_lights_at_once, responses);
   ADD_TESTS("laws", equilibrium, temperatures_and_fluxes);
   ADD_TESTS("calls", a_warm_start_is_shorter, elements_that_do_not_suffice_are_told,
-            values_that_are_not_valid_are_named, a_stopped_solve_can_be_made_again);
+            values_that_are_not_valid_are_named, light_that_elements_do_not_know_is_refused,
+            calls_from_callbacks_are_refused, a_gradient_without_an_adjoint_is_refused,
+            a_stopped_solve_can_be_made_again);
 }
