@@ -84,23 +84,23 @@ static hr2d_status listen(void *ctx, const hr2d_progress *progress) {
   return l->progress_status;
 }
 
-/* If the budgets do not suffice for a better comparison, the last one stands.  Changes the
-   target. */
-static hr2d_status measure(const hr2d_solution *solution, hr2d_target *target, wanted b,
+/* If the budgets do not suffice for a better comparison, the last one stands. */
+static hr2d_status measure(const hr2d_solution *solution, const hr2d_target *how, wanted b,
                            wanted h) {
-  listener l = {.progress = target->progress, .ctx = target->progress_ctx};
-  target->no_error = 0;
-  target->progress = listen;
-  target->progress_ctx = &l;
-  const double finest = fmax(target->error, FINEST);
+  hr2d_target target = *how;
+  listener l = {.progress = target.progress, .ctx = target.progress_ctx};
+  target.no_error = 0;
+  target.progress = listen;
+  target.progress_ctx = &l;
+  const double finest = fmax(target.error, FINEST);
   hr2d_status status = HR2D_OK;
   int enough = 0, compared = 0;
   for (double error = FIRST; !status && !enough; error *= 1e-3) {
-    target->error = fmax(error, finest);
-    status = compare(solution, target, b, h, &enough);
+    target.error = fmax(error, finest);
+    status = compare(solution, &target, b, h, &enough);
     if (status == HR2D_EACCURACY && compared && !l.progress_status) status = HR2D_OK;
     compared = 1;
-    enough = enough || target->error <= finest;
+    enough = enough || target.error <= finest;
   }
   return status;
 }
