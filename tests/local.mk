@@ -138,6 +138,7 @@ SUITES = \
 	tests/unit/visibility/check-point-view.c \
 	tests/unit/visibility/check-point-view-walls.c \
 	tests/unit/operator/check-operator.c \
+	tests/unit/operator/check-operator-calls.c \
 	tests/unit/operator/check-gradients.c \
 	tests/unit/state/check-state.c \
 	tests/unit/state/check-state-scene.c \
@@ -210,6 +211,7 @@ tests_libsupport_la_SOURCES = \
 	tests/support/plane.h \
 	tests/support/radiosity-scenes.c tests/support/radiosity-scenes.h \
 	tests/support/random.c tests/support/random.h \
+	tests/support/relit-rooms.c tests/support/relit-rooms.h \
 	tests/support/room-plans.c tests/support/room-plans.h \
 	tests/support/scene-files.c tests/support/scene-files.h \
 	tests/support/scenes.c tests/support/scenes.h \

@@ -137,10 +137,10 @@ HR2D_API const char *hr2d_operator_message(const hr2d_operator *op);
  * @retval HR2D_ESTATE       the call comes from a callback of a call on this operator
  * @retval other             as hr2d_solve()
  *
- * On failure `account` is unchanged. A start that is far brighter than the new light costs
- * digits. The errors are those on these elements, as for hr2d_solve_to(). Cost: O(L) for each
- * of a dozen gathers, and as many with two coefficients more for the account. Where the number
- * of lights or the suns change, light from outside is made anew.
+ * On failure `account` is unchanged. The errors are those on these elements, as for
+ * hr2d_solve_to(). Cost: O(L) for each of a dozen gathers, and as many with two coefficients
+ * more for the account. Where the number of lights or the suns change, light from outside is
+ * made anew.
  */
 HR2D_API hr2d_status hr2d_operator_solve(hr2d_operator *op, const hr2d_light *light,
                                          const hr2d_solution *start, hr2d_solution **solution,
@@ -156,8 +156,7 @@ HR2D_API hr2d_status hr2d_operator_solve(hr2d_operator *op, const hr2d_light *li
  * @param response  receives patches × columns × bands numbers
  * @return as hr2d_operator_solve(), or HR2D_EINVAL for columns that there are not
  *
- * Averages without closure's share of a patch's own light: B = E + ρKB by superposition. Cost:
- * that of as many solves, several at once.
+ * Cost: that of as many solves, several at once.
  */
 HR2D_API hr2d_status hr2d_operator_response(hr2d_operator *op, const hr2d_light *light,
                                             size_t first, size_t columns, double *response);

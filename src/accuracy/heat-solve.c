@@ -349,6 +349,6 @@ hr2d_status hr2di_heat_solve(const hr2d_scene *scene, const hr2d_target *target,
     hr2di_relit_destroy(s.frozen);
   if (account) *account = s.account;
   hr2di_alloc_free(&scene->alloc, s.important);
-  hr2di_target_clear(&s.given, scene);
+  hr2di_target_clear(&s.given, &scene->alloc);
   return status;
 }

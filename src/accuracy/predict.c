@@ -212,7 +212,7 @@ static hr2d_status predict_heat(const hr2d_scene *scene, const hr2d_target *targ
   hr2d_status status = hr2di_target_init(&used, scene, target, HR2D_DEFAULT_ERROR);
   if (status) return status;
   status = hr2di_heat_scene_create(scene, NULL, used.progress, used.progress_ctx, &frozen);
-  hr2di_target_clear(&used, scene);
+  hr2di_target_clear(&used, &scene->alloc);
   if (status) return status;
   status = hr2d_predict(frozen, target, prediction);
   hr2di_relit_destroy(frozen);
@@ -240,6 +240,6 @@ hr2d_status hr2d_predict(const hr2d_scene *scene, const hr2d_target *target,
     status = predict(scene, &used, prediction);
     if (!status && former.seconds < prediction->seconds) *prediction = former;
   }
-  hr2di_target_clear(&used, scene);
+  hr2di_target_clear(&used, &scene->alloc);
   return status;
 }

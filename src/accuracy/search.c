@@ -60,7 +60,7 @@ void hr2di_search_clear(hr2di_search *s) {
   hr2di_graded_clear(&s->best);
   hr2di_beam_cache_clear(&s->beam_cache);
   hr2di_primal_dual_clear(&s->lights, s->scene);
-  hr2di_target_clear(&s->given, s->scene);
+  hr2di_target_clear(&s->given, &s->scene->alloc);
 }
 
 hr2d_status hr2di_search_agree(hr2di_search *s, hr2d_status status) {

@@ -114,7 +114,7 @@ hr2d_status hr2d_solution_error(const hr2d_solution *solution, const hr2d_target
   target.points = sup != NULL;
   if (!status)
     status = measure(solution, &target, (wanted){average, sup}, (wanted){NULL, NULL});
-  hr2di_target_clear(&target, scene);
+  hr2di_target_clear(&target, &scene->alloc);
   return status;
 }
 
@@ -136,7 +136,7 @@ hr2d_status hr2d_solution_account(const hr2d_solution *solution, const hr2d_targ
   const wanted b = {&a.average, target.points ? &a.sup : NULL},
                h = {&a.irradiance, target.points ? &a.irradiance_sup : NULL};
   if (!status) status = measure(solution, &target, b, h);
-  hr2di_target_clear(&target, scene);
+  hr2di_target_clear(&target, &scene->alloc);
   a.error_seconds = a.seconds = hr2di_clock_now() - start;
   if (!status) *account = a;
   return status;

@@ -63,8 +63,8 @@ hr2d_status hr2di_target_init(hr2d_target *used, const hr2d_scene *scene,
   return sort_patches(used, scene);
 }
 
-void hr2di_target_clear(hr2d_target *used, const hr2d_scene *scene) {
+void hr2di_target_clear(hr2d_target *used, const hr2d_allocator *alloc) {
   /* Ours, and not const; the type of the member is that of the caller's patches. */
-  hr2di_alloc_free(&scene->alloc, (void *)(uintptr_t)used->important);
+  hr2di_alloc_free(alloc, (void *)(uintptr_t)used->important);
   used->important = NULL;
 }

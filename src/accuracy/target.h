@@ -12,6 +12,6 @@
    Returns HR2D_OK, HR2D_EINVAL or HR2D_ENOMEM; call hr2di_target_clear() in any case. */
 hr2d_status hr2di_target_init(hr2d_target *used, const hr2d_scene *scene,
                               const hr2d_target *given, double default_error);
-void hr2di_target_clear(hr2d_target *used, const hr2d_scene *scene);
+void hr2di_target_clear(hr2d_target *used, const hr2d_allocator *alloc);
 
 #endif

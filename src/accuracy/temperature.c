@@ -172,7 +172,7 @@ hr2d_status hr2d_solution_temperatures(const hr2d_solution *solution, const hr2d
   }
   put_given_heat(scene, &to);
   forget(scene, &target, &to);
-  hr2di_target_clear(&target, scene);
+  hr2di_target_clear(&target, &scene->alloc);
   return HR2D_OK;
 }
 

@@ -68,19 +68,6 @@ static void apply(const hr2di_krylov_system *system, const double *in, double *o
   for (size_t k = 0; k < system->size * system->bands; k++) out[k] = in[k] - out[k];
 }
 
-/* r = b − (I − S) y */
-static void form_residual(const hr2di_krylov_system *system, const double *b, const double *y,
-                          double *r) {
-  size_t zeros = 0;
-  while (zeros < system->size * system->bands && y[zeros] == 0) zeros++;
-  if (zeros == system->size * system->bands) {
-    memcpy(r, b, zeros * sizeof *r);
-    return;
-  }
-  apply(system, y, r);
-  for (size_t k = 0; k < system->size * system->bands; k++) r[k] = b[k] - r[k];
-}
-
 /* Fields that conjugate gradients and BiCGSTAB work with. */
 enum { SYMMETRIC_FIELDS = 3, FIELDS = 5, SCALARS = 7 };
 
@@ -92,6 +79,29 @@ typedef struct state {
   double residual; /* the largest over the bands, relative */
   int done;        /* every band has converged */
 } state;
+
+/* r = b − (I − S) y.  A band whose y is farther off than 0 begins with 0: a start for other
+   light would leave its roundings. */
+static void form_residual(state *s, const double *b) {
+  const hr2di_krylov_system *system = s->system;
+  const size_t bands = system->bands, field = system->size * bands;
+  double *r = s->field[0], *rr = s->scalar[1], *bb = s->scalar[2];
+  size_t zeros = 0;
+  while (zeros < field && s->y[zeros] == 0) zeros++;
+  if (zeros == field) {
+    memcpy(r, b, field * sizeof *r);
+    return;
+  }
+  apply(system, s->y, r);
+  for (size_t k = 0; k < field; k++) r[k] = b[k] - r[k];
+  hr2di_krylov_dot(system, r, r, rr);
+  hr2di_krylov_dot(system, b, b, bb);
+  for (size_t k = 0; k < field; k++) {
+    if (rr[k % bands] <= bb[k % bands]) continue;
+    s->y[k] = 0;
+    r[k] = b[k];
+  }
+}
 
 /* Measures the residual r and passes it to `report`.  active[b] becomes 1 if band b still needs
    work, else 0. */
@@ -117,7 +127,7 @@ static hr2d_status conjugate_gradients(state *s, const double *b) {
   double *r = s->field[0], *p = s->field[1], *q = s->field[2];
   double *active = s->scalar[0], *rr = s->scalar[3], *pq = s->scalar[4], *step = s->scalar[5],
          *next = s->scalar[6];
-  form_residual(system, b, s->y, r);
+  form_residual(s, b);
   memcpy(p, r, system->size * system->bands * sizeof *p);
   hr2di_krylov_dot(system, r, r, rr);
   hr2d_status status = measure(s, r, active);
@@ -181,7 +191,7 @@ static hr2d_status stabilised_gradients(state *s, const double *b) {
   const hr2di_krylov_system *system = s->system;
   const size_t bytes = system->size * system->bands * sizeof(double);
   double *r = s->field[0], *active = s->scalar[0], *rho = s->scalar[3];
-  form_residual(system, b, s->y, r);
+  form_residual(s, b);
   memcpy(s->field[1], r, bytes);
   memcpy(s->field[4], r, bytes);
   hr2di_krylov_dot(system, r, r, rho);

@@ -145,20 +145,24 @@ static hr2d_status differentiate(adjoint *a, const hr2d_solution *solution, hr2d
   return HR2D_OK;
 }
 
-/* The relit scene gets the light of the solution.  X exists if B does wherever light is sent.
- */
-static hr2d_status return_to(hr2d_operator *op, const hr2d_solution *solution) {
-  const hr2d_status status = hr2di_operator_resize(op, 1);
+/* X exists if B does wherever light is sent. */
+static hr2d_status check_existence(hr2d_operator *op, hr2di_watch *watch) {
   hr2d_scene *relit = op->kept->relit;
-  hr2di_watch watch;
-  if (status) return status;
-  hr2di_relit_renew(relit, solution->own_scene);
   for (size_t k = 0; k < hr2di_scene_cell(relit); k++)
     for (size_t b = 0; b < relit->bands; b++) hr2di_relit_emission(relit, k)[b] = 1;
-  hr2di_scene_watch(op->scene, &watch, op->target.progress, op->target.progress_ctx, "rows");
-  const hr2d_status exists = hr2di_existence_check(op->kept->links, relit, &watch);
-  hr2di_relit_renew(relit, solution->own_scene);
-  return exists ? exists : hr2di_operator_begin(op);
+  return hr2di_existence_check(op->kept->links, relit, watch);
+}
+
+/* The relit scene gets the light of the solution. */
+static hr2d_status return_to(hr2d_operator *op, const hr2d_solution *solution) {
+  hr2d_scene *relit = op->kept->relit;
+  hr2di_watch watch;
+  hr2d_status status = hr2di_operator_resize(op, 1);
+  hr2di_scene_watch(op->scene, &watch, op->target.progress, op->target.progress_ctx, "solve");
+  if (!status) status = hr2di_relit_renew(relit, solution->own_scene, &watch);
+  if (!status) status = check_existence(op, &watch);
+  if (!status) status = hr2di_relit_renew(relit, solution->own_scene, &watch);
+  return status ? status : hr2di_operator_begin(op);
 }
 
 static hr2d_status check(hr2d_operator *op, const hr2d_solution *solution,

@@ -178,14 +178,20 @@ static hr2d_status check_sky(hr2d_operator *op, const hr2d_light *from) {
   return HR2D_OK;
 }
 
-static hr2d_status take(hr2d_operator *op, const hr2d_light *from) {
+static hr2d_status take_patch(hr2d_operator *op, const hr2d_light *from, size_t light,
+                              size_t k) {
+  hr2d_status status = take_surface(op, &from->emission, 1, light, k);
+  if (!status) status = take_surface(op, &from->reflectance, 0, light, k);
+  if (!status) status = take_temperature(op, from, light, k);
+  return status ? status : take_flux(op, from, light, k);
+}
+
+static hr2d_status take(hr2d_operator *op, const hr2d_light *from, hr2di_watch *watch) {
   hr2d_status status = check_sky(op, from);
   for (size_t light = 0; light < from->count; light++) {
     for (size_t k = 0; k < hr2di_scene_cell(op->scene) && !status; k++) {
-      status = take_surface(op, &from->emission, 1, light, k);
-      if (!status) status = take_surface(op, &from->reflectance, 0, light, k);
-      if (!status) status = take_temperature(op, from, light, k);
-      if (!status) status = take_flux(op, from, light, k);
+      status = take_patch(op, from, light, k);
+      if (!status) status = hr2di_watch_work(watch, 1 + op->scene->bands / 2);
     }
     for (size_t band = 0; band < op->scene->bands && !status; band++)
       status = take_outside(op, from, light, band);
@@ -194,8 +200,10 @@ static hr2d_status take(hr2d_operator *op, const hr2d_light *from) {
 }
 
 hr2d_status hr2di_operator_relight(hr2d_operator *op, const hr2d_light *light) {
-  const hr2d_status status = hr2di_operator_resize(op, light->count);
+  hr2di_watch watch;
+  hr2d_status status = hr2di_operator_resize(op, light->count);
   if (status) return status;
-  hr2di_relit_renew(op->kept->relit, op->scene);
-  return take(op, light);
+  hr2di_scene_watch(op->scene, &watch, op->target.progress, op->target.progress_ctx, "solve");
+  status = hr2di_relit_renew(op->kept->relit, op->scene, &watch);
+  return status ? status : take(op, light, &watch);
 }

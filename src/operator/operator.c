@@ -27,12 +27,9 @@ void hr2d_operator_destroy(hr2d_operator *op) {
   if (!op) return;
   const hr2d_allocator alloc = op->alloc;
   hr2di_operator_clear_equations(op);
-  op->graded.hierarchy = NULL;
-  op->graded.links = NULL;
   hr2di_alloc_free(&alloc, op->graded.unresolved_jump);
   hr2di_alloc_free(&alloc, op->graded.depth);
-  /* Ours, and not const, as in target.c; the scene may be gone. */
-  hr2di_alloc_free(&alloc, (void *)(uintptr_t)op->target.important);
+  hr2di_target_clear(&op->target, &alloc); /* the scene may be gone */
   release(op->kept);
   hr2di_alloc_free(&alloc, op);
 }

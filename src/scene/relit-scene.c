@@ -66,17 +66,27 @@ static void take_patch(hr2d_scene *relit, const hr2d_scene *scene, size_t k) {
   }
 }
 
-void hr2di_relit_renew(hr2d_scene *relit, const hr2d_scene *scene) {
+static void take_outside(hr2d_scene *relit, const hr2d_scene *scene, size_t band) {
   const hr2di_sky *sky = &scene->sky;
-  for (size_t k = 0; k < hr2di_scene_cell(scene); k++) take_patch(relit, scene, k);
-  for (size_t b = 0; b < relit->bands; b++) {
-    const size_t of = b % scene->bands;
-    relit->background[b] = hr2d_scene_background(scene, of);
-    if (scene->sun) relit->sun[b] = hr2d_scene_sun(scene, of);
-    for (size_t k = 0; k < sky->pieces; k++)
-      relit->sky.value[k * relit->bands + b] =
-          sky->value[k * sky->bands + (sky->bands == 1 ? 0 : of)];
+  const size_t of = band % scene->bands;
+  relit->background[band] = hr2d_scene_background(scene, of);
+  if (scene->sun) relit->sun[band] = hr2d_scene_sun(scene, of);
+  for (size_t k = 0; k < sky->pieces; k++)
+    relit->sky.value[k * relit->bands + band] =
+        sky->value[k * sky->bands + (sky->bands == 1 ? 0 : of)];
+}
+
+hr2d_status hr2di_relit_renew(hr2d_scene *relit, const hr2d_scene *scene, hr2di_watch *watch) {
+  hr2d_status status = HR2D_OK;
+  for (size_t k = 0; k < hr2di_scene_cell(scene) && !status; k++) {
+    take_patch(relit, scene, k);
+    status = hr2di_watch_work(watch, 1 + relit->bands / 4);
   }
+  for (size_t b = 0; b < relit->bands && !status; b++) {
+    take_outside(relit, scene, b);
+    status = hr2di_watch_work(watch, 1 + scene->sky.pieces / 8);
+  }
+  return status;
 }
 
 hr2d_status hr2di_relit_create(const hr2d_scene *scene, size_t times, hr2d_scene **relit) {
@@ -100,9 +110,8 @@ hr2d_status hr2di_relit_create(const hr2d_scene *scene, size_t times, hr2d_scene
     hr2di_relit_destroy(made);
     return status;
   }
-  hr2di_relit_renew(made, scene);
   *relit = made;
-  return HR2D_OK;
+  return hr2di_relit_renew(made, scene, NULL);
 }
 
 /* The lender may be gone. */

@@ -15,8 +15,9 @@
    do for any light.  HR2D_OK or HR2D_ENOMEM. */
 hr2d_status hr2di_relit_create(const hr2d_scene *scene, size_t times, hr2d_scene **relit);
 
-/* Takes the light of a scene of as many bands, or of a part of them, which repeat. */
-void hr2di_relit_renew(hr2d_scene *relit, const hr2d_scene *scene);
+/* Takes the light of a scene of as many bands, or of a part of them, which repeat.  HR2D_OK or
+   the status of the watch, which may be NULL. */
+hr2d_status hr2di_relit_renew(hr2d_scene *relit, const hr2d_scene *scene, hr2di_watch *watch);
 
 /* Also for scenes of frozen temperatures; NULL is allowed. */
 void hr2di_relit_destroy(hr2d_scene *relit);

@@ -99,7 +99,6 @@ static hr2d_status set_surfaces(hr2di_equation *s) {
   return status;
 }
 
-/* Takes √ρ and what is lost. */
 hr2d_status hr2di_equation_set_surfaces(hr2di_equation *s) {
   if (s->balance.count > 0) hr2di_balance_set_losses(&s->balance, &s->transport);
   return set_surfaces(s);

@@ -131,7 +131,7 @@ static void try_accuracy(const hr2d_scene *scene, double target, double accuracy
 
 static void clear(trial *t, const hr2d_scene *scene) {
   hr2di_graded_clear(&t->answer);
-  hr2di_target_clear(&t->target, scene);
+  hr2di_target_clear(&t->target, &scene->alloc);
 }
 
 /* The lamp's H is a thousandth of its B: what clusters lack of its row must not be a part of
