@@ -130,7 +130,8 @@ static long count_points(const hr2d_scene *scene, const hr2d_solution *solution,
 
 static long count_allocations(test_memory *memory, const hr2d_scene *scene, int points,
                               int period, long *gathered) {
-  const long before = memory->until_failure = LONG_MAX / 2;
+  const long before = LONG_MAX / 2;
+  memory->until_failure = before;
   const answer a = solve(scene, 1e-3, HR2D_NORM_AVERAGE, points);
   const long made = before - memory->until_failure;
   *gathered = count_points(scene, a.solution, period);
