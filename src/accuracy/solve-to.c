@@ -153,13 +153,15 @@ static hr2d_status settle(hr2di_search *s, hr2d_status status) {
 }
 
 /* What is known of the scene before the first attempt.  The elements for the lights of patches
-   are a survey, too; without these lights elements end at all events. */
+   are a survey, too; without these lights elements end at all events.  For an operator the
+   lights tell what matters to whom, but not what is bright. */
 static hr2d_status survey(hr2di_search *s) {
   hr2di_watch watch;
   hr2d_status status = HR2D_OK;
-  if (!s->keeps_operator && hr2di_strategy_wants_lights(s->scene, &s->given))
+  if (hr2di_strategy_wants_lights(s->scene, &s->given))
     status = hr2di_importance(s->scene, &s->target, hr2di_search_beam_cache(s), &s->lights,
                               &s->survey, &s->message);
+  s->lights.any_light = s->keeps_operator;
   if (status || s->survey.ellipse > 0) return status;
   hr2di_scene_watch(s->scene, &watch, s->target.progress, s->target.progress_ctx, "refine");
   return hr2di_strategy_survey(s->scene, hr2di_search_beam_cache(s), s->given.threads, &watch,

@@ -171,15 +171,18 @@ static void set_weights(hr2di_estimator *e) {
     }
 }
 
+double hr2di_estimator_largest(const hr2di_estimator *e, int irradiance, size_t band) {
+  double max = 0;
+  for (size_t k = 0; k < e->values / e->eq.transport.bands; k++)
+    max = fmax(max, hr2di_estimator_value(e, irradiance, k, band));
+  return max;
+}
+
 static void set_floors(hr2di_estimator *e) {
   const size_t bands = e->eq.transport.bands;
   for (int h = 0; h < 2; h++)
-    for (size_t b = 0; b < bands; b++) {
-      double max = 0;
-      for (size_t k = 0; k < e->values / bands; k++)
-        max = fmax(max, hr2di_estimator_value(e, h, k, b));
-      e->floor[(size_t)h * bands + b] = e->target->floor * max;
-    }
+    for (size_t b = 0; b < bands; b++)
+      e->floor[(size_t)h * bands + b] = e->target->floor * hr2di_estimator_largest(e, h, b);
 }
 
 /* Work space for all fields. */
@@ -236,6 +239,7 @@ hr2d_status hr2di_estimator_init(hr2di_estimator *e, const hr2di_graded *answer,
   options.progress_ctx = target->progress_ctx;
   *e = (hr2di_estimator){.target = target,
                          .unresolved_jump = answer->unresolved_jump,
+                         .jump_bands = answer->jump_bands,
                          .exponent = answer->survey.exponent,
                          .contacts.alloc = answer->links->alloc};
   hr2d_status status = hr2di_equation_init(&e->eq, answer->links,

@@ -19,6 +19,7 @@ typedef struct hr2di_estimator {
   const hr2d_solution *coarse;
   const hr2d_target *target;
   const double *unresolved_jump; /* see hr2di_graded */
+  size_t jump_bands;             /* of these; there may be several lights of as many bands */
   double exponent;               /* γ, the least of the corners */
   double margin;                 /* of bounds over estimates */
   double blind; /* the aim, where events inside elements may hide errors; else 0 */
@@ -125,6 +126,9 @@ hr2d_status hr2di_estimator_solve_part(hr2di_estimator *e, double part,
 /* An average of the solution: of B, or of H. */
 double hr2di_estimator_value(const hr2di_estimator *e, int irradiance, size_t patch,
                              size_t band);
+
+/* The largest one. */
+double hr2di_estimator_largest(const hr2di_estimator *e, int irradiance, size_t band);
 
 /* The value that the error of an average is relative to: the average, but no less than the
    floor. */

@@ -81,6 +81,7 @@ static hr2d_status grade(hr2di_graded *a, const hr2di_resolution *fineness,
     status =
         hr2di_events_select(h, &events, fineness->lights, fineness->kinks, target->max_elements,
                             target->threads, &watch, &a->unresolved_jump);
+  a->jump_bands = h->scene->bands;
   if (!status) status = divide_images(a, &watch);
   a->events = events.count;
   hr2di_events_clear(&events);

@@ -20,6 +20,7 @@ typedef struct hr2di_graded {
   hr2di_survey survey;
   double *
       unresolved_jump; /* see hr2di_events_select(); NULL: no event is left inside an element */
+  size_t jump_bands;   /* of these */
   unsigned char *depth; /* per element: how often a leaf is to be halved so that the aim is
                            reached; NULL: unknown */
   int unbounded;        /* the error is too large, and has got no bound */

@@ -155,14 +155,17 @@ static void saturate_kinks(hr2di_estimator *e) {
   const hr2di_transport *t = &e->eq.transport;
   const size_t order = e->coarse->order;
   const double ratio = (double)order / (double)t->order, theta = 1 - ratio * ratio * ratio;
-  for (size_t k = 0; k < t->leaves; k++)
-    for (size_t b = 0; b < t->bands; b++) {
+  for (size_t b = 0; b < t->bands; b++) {
+    const double largest = hr2di_estimator_largest(e, 0, b);
+    for (size_t k = 0; k < t->leaves; k++) {
       double *residual = e->residual + k * t->width + b, seen = 0;
       for (size_t l = order; l < t->order; l++) seen = hypot(seen, residual[l * t->bands]);
-      const double kinks = e->unresolved_jump[t->leaf[k] * t->bands + b];
-      if (!(kinks > 0) || ldexp(kinks, -e->eq.exponent[b]) < KINK * seen) continue;
+      const size_t of = t->leaf[k] * e->jump_bands + b % e->jump_bands;
+      const double kinks = largest * e->unresolved_jump[of];
+      if (!(kinks > 0) || kinks < KINK * seen) continue;
       for (size_t l = order; l < t->order; l++) residual[l * t->bands] /= theta;
     }
+  }
 }
 
 hr2d_status hr2di_residual_solve(hr2di_estimator *e) {

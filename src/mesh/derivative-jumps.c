@@ -2,6 +2,7 @@
 #include "mesh/derivative-jumps.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/alloc.h"
 #include "base/team.h"
@@ -188,7 +189,8 @@ hr2d_status hr2di_derivative_jumps_init(hr2di_derivative_jumps *j, const hr2d_sc
   j->known = hr2di_alloc_zero(alloc, count, 1);
   j->wanted = hr2di_alloc(alloc, count, sizeof *j->wanted);
   if (!j->max || !j->jump || !j->known || !j->wanted) return HR2D_ENOMEM;
-  const hr2d_status status = hire(j, threads);
+  if (lights->any_light) memset(j->known, 1, count);
+  const hr2d_status status = lights->any_light ? HR2D_OK : hire(j, threads);
   return status ? status : set_bounds(j);
 }
 

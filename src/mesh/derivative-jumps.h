@@ -5,7 +5,7 @@
    value.  Where x passes the line of a thin wall, both of its sides come into view, and the
    jump may be twice as large.  A look gives the jump: a second difference of what a point sees
    close beside the vertex, with the radiosities of whole patches.  The rest of the view is
-   smooth there. */
+   smooth there.  Where the light may be any, the bounds stay. */
 #ifndef HR2D_SRC_MESH_DERIVATIVE_JUMPS_H
 #define HR2D_SRC_MESH_DERIVATIVE_JUMPS_H
 
@@ -23,7 +23,7 @@ typedef struct hr2di_derivative_jumps {
   hr2di_watch *watch;
   double *max;          /* 2·bands: the largest B, and the largest importance */
   double *jump;         /* events × 2·bands: of H from B, and from the importance, or more */
-  unsigned char *known; /* per event: its jumps are no bounds */
+  unsigned char *known; /* per event: nothing is left to find out */
   size_t *wanted;       /* events to look at */
   size_t count;         /* of these */
   hr2di_jump_worker *observer; /* one for each thread */

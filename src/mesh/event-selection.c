@@ -244,7 +244,8 @@ static void add_remainder(const cutter *c, const leaf *l, size_t k, double *unre
   for (size_t b = 0; b < c->bands; b++) {
     const double rho = hr2d_scene_reflectance(c->scene, e->patch, b);
     double *of = &unresolved_jump[l->element * c->bands + b];
-    *of = hypot(*of, rho * c->jumps.jump[k * 2 * c->bands + b] * a);
+    if (c->jumps.max[b] > 0)
+      *of = hypot(*of, rho * c->jumps.jump[k * 2 * c->bands + b] / c->jumps.max[b] * a);
   }
 }
 

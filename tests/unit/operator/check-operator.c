@@ -3,6 +3,7 @@
    and closed rooms in equilibrium, by superposition and reciprocity. */
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "support/radiosity-scenes.h"
@@ -281,8 +282,43 @@ START_TEST(known_radiosities) {
 }
 END_TEST
 
+/* Two rooms to nine digits.  Elements at the events that matter for the light of the scene
+   alone do not suffice for all other light; those at all events are many more. */
+START_TEST(elements_suffice_for_light_of_one_patch) {
+  hr2d_scene *scene = NULL;
+  hr2d_solution *solution = NULL;
+  hr2d_account own, account;
+  ck_assert_int_eq(hr2d_scene_create(NULL, &scene), HR2D_OK);
+  ck_assert_int_eq(hr2d_scene_read(scene, test_scene_path("partition.geojson")), HR2D_OK);
+  ck_assert_int_eq(hr2d_scene_commit(scene), HR2D_OK);
+  hr2d_target target = HR2D_TARGET_INIT;
+  target.error = 1e-9;
+  ck_assert_int_eq(hr2d_solve_to(scene, &target, &solution, &own), HR2D_OK);
+  hr2d_solution_destroy(solution);
+  hr2d_operator *op = relit_operator(scene, 1e-9);
+  enum { LIGHTS = 4 };
+  const size_t patches = hr2d_scene_patches(scene);
+  double *emission = calloc(LIGHTS * patches, sizeof *emission);
+  for (size_t k = 0; k < patches; k += LIGHTS) {
+    hr2d_light light = HR2D_LIGHT_INIT;
+    memset(emission, 0, LIGHTS * patches * sizeof *emission);
+    for (size_t m = 0; m < LIGHTS; m++) emission[m * patches + (k + m) % patches] = 1;
+    light.emission.value = emission;
+    light.count = LIGHTS;
+    ck_assert_int_eq(hr2d_operator_solve(op, &light, NULL, &solution, &account), HR2D_OK);
+    ck_assert_double_le(account.average.estimate, 1e-9);
+    hr2d_solution_destroy(solution);
+  }
+  ck_assert_uint_le(account.links, 2 * own.links);
+  free(emission);
+  hr2d_operator_destroy(op);
+  hr2d_scene_destroy(scene);
+}
+END_TEST
+
 TEST_SUITE("operator") {
   REPEAT_TESTS(RELIT_KINDS, "light", other_light_is_that_of_a_scene_with_it,
                the_same_light_has_the_same_bits, superposition_of_lights_at_once, responses);
   ADD_TESTS("laws", equilibrium, temperatures_and_fluxes, known_radiosities);
+  ADD_TESTS("elements", elements_suffice_for_light_of_one_patch);
 }
