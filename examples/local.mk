@@ -1,8 +1,9 @@
 # Examples use the library as any program does; `make check` compares what they
 # print with NAME.expected.
 EXAMPLES = examples/adiabatic-walls examples/conduction examples/digits \
-	examples/fibre-bed examples/frame-cavity examples/furnace-section examples/own-oracle \
-	examples/heating-furnace examples/paint-oven \
+	examples/fibre-bed examples/fit-emissivities examples/frame-cavity \
+	examples/furnace-section examples/heating-furnace examples/lamp-powers \
+	examples/own-oracle examples/paint-oven \
 	examples/resume examples/room-climate examples/shares examples/solar-panels \
 	examples/solar-year examples/street-canyon examples/streets examples/together examples/tour
 check_PROGRAMS += $(EXAMPLES)
@@ -14,12 +15,16 @@ examples_digits_CPPFLAGS = $(PUBLIC_CPPFLAGS)
 examples_digits_LDADD = libhr2d.la
 examples_fibre_bed_CPPFLAGS = $(PUBLIC_CPPFLAGS)
 examples_fibre_bed_LDADD = libhr2d.la -lm
+examples_fit_emissivities_CPPFLAGS = $(PUBLIC_CPPFLAGS) $(GSL_CFLAGS)
+examples_fit_emissivities_LDADD = libhr2d.la $(GSL_LIBS) -lm
 examples_frame_cavity_CPPFLAGS = $(PUBLIC_CPPFLAGS)
 examples_frame_cavity_LDADD = libhr2d.la -lm
 examples_furnace_section_CPPFLAGS = $(PUBLIC_CPPFLAGS)
 examples_furnace_section_LDADD = libhr2d.la -lm
 examples_heating_furnace_CPPFLAGS = $(PUBLIC_CPPFLAGS)
 examples_heating_furnace_LDADD = libhr2d.la -lm
+examples_lamp_powers_CPPFLAGS = $(PUBLIC_CPPFLAGS) $(GSL_CFLAGS)
+examples_lamp_powers_LDADD = libhr2d.la $(GSL_LIBS) -lm
 examples_own_oracle_CPPFLAGS = $(PUBLIC_CPPFLAGS)
 examples_own_oracle_LDADD = libhr2d.la -lm
 examples_paint_oven_CPPFLAGS = $(PUBLIC_CPPFLAGS)

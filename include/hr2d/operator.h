@@ -19,8 +19,8 @@
  *     hr2d_solution_destroy(solution);
  *     hr2d_operator_destroy(op);
  *
- * **Elements** end at all visibility events, whatever light they are for, and are divided for
- * the light that the scene has. Other light may want them divided elsewhere: the account of
+ * **Elements** end at the visibility events that may matter for light of the same largest
+ * radiosity, and are divided for the light that the scene has. Other light may want them divided elsewhere: the account of
  * each solve measures the errors of that light on these elements, and says if they are above
  * the target. So let the scene have light, or several bands of light, like what will come.
  *
