@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Measures time and memory of a solve to 1e-2 among fibres of 16 sides in a closed box.
 
-   Usage: bench-fibres [--error] [PATCHES...]; 8004 and 64004 patches unless given.  Each size
-   has a process of its own.  Seconds are of the processor, so that other work on the machine
-   matters little; parts of them follow the clock.  With --error the error is measured, too.
+   Usage: bench-fibres [--row] [--error] [PATCHES...]; 8004 and 64004 patches unless given. Each
+   size has a process of its own.  Seconds are of the processor, so that other work on the
+   machine matters little; parts of them follow the clock.  With --error the error is measured,
+   too; with
+   --row the scene is an open row of unit squares, one apart.
 
    Usage: bench-fibres --write FIBRES SIDES; prints such a scene as GeoJSON, for other programs.
  */
@@ -18,8 +20,8 @@
 #include "timing.h"
 
 typedef struct fibres {
-  size_t count; /* of fibres; then the number of patches */
-  int no_error;
+  size_t count; /* of patches, about; then exactly */
+  int no_error, is_row;
   hr2d_status status;
   hr2d_account account;
   double commit, solve; /* seconds */
@@ -34,7 +36,7 @@ static void solve(void *ctx) {
   target.error = 1e-2;
   target.no_error = f->no_error;
   double start = cpu_seconds();
-  hr2d_scene *scene = many_fibres(f->count);
+  hr2d_scene *scene = f->is_row ? many_row(f->count / 4) : many_fibres(f->count / 16);
   if (!scene) exit(EXIT_FAILURE);
   f->commit = cpu_seconds() - start;
   f->count = hr2d_scene_patches(scene);
@@ -97,13 +99,16 @@ static int write_asked(int argc, char **argv) {
 int main(int argc, char **argv) {
   if (argc > 1 && strcmp(argv[1], "--write") == 0) return write_asked(argc, argv);
   static char *usual[] = {"8004", "64004"};
-  const int with_error = argc > 1 && strcmp(argv[1], "--error") == 0, from = 1 + with_error;
+  const int is_row = argc > 1 && strcmp(argv[1], "--row") == 0, then = 1 + is_row;
+  const int with_error = argc > then && strcmp(argv[then], "--error") == 0;
+  const int from = then + with_error;
   char **size = argc > from ? argv + from : usual;
   const int sizes = argc > from ? argc - from : 2;
   printf("%9s%9s%9s%9s%9s%9s%9s%9s%7s%7s%10s%11s%10s\n", "patches", "commit s", "solve s",
          "refine", "blocks", "sweeps", "error", "GB", "order", "solves", "N", "L", "estimate");
   for (int k = 0; k < sizes; k++) {
-    fibres f = {.count = (size_t)strtoul(size[k], NULL, 10) / 16, .no_error = !with_error};
+    fibres f = {
+        .count = (size_t)strtoul(size[k], NULL, 10), .no_error = !with_error, .is_row = is_row};
     if (!alone_run(solve, &f, sizeof f)) {
       fprintf(stderr, "bench-fibres: %s patches failed\n", size[k]);
       return EXIT_FAILURE;

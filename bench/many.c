@@ -134,6 +134,19 @@ hr2d_scene *many_fibres(size_t fibres) {
   return make_polygons(fibres, 16);
 }
 
+/* Light comes from the right side of each. */
+hr2d_scene *many_row(size_t squares) {
+  hr2d_scene *scene = NULL;
+  if (hr2d_scene_create(NULL, &scene)) return NULL;
+  hr2d_status status = HR2D_OK;
+  for (size_t k = 0; k < squares && !status; k++) {
+    const double x = 2 * (double)k;
+    const hr2d_point at[] = {{x + 1, 0}, {x + 1, 1}, {x, 1}, {x, 0}};
+    status = add_ring(scene, at, 4, 1, 1);
+  }
+  return commit(scene, status);
+}
+
 hr2d_scene *many_round(size_t patches) {
   return make_round(patches);
 }

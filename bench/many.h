@@ -27,10 +27,11 @@ typedef struct many_bed {
 many_bed many_bed_of(size_t count, size_t corners);
 int many_bed_next(many_bed *bed, hr2d_point *at); /* sets all corners; 0: there are no more */
 
-/* Committed scenes, or NULL: squares, or fibres of 16 sides, anywhere in a closed box, and a
-   round room. */
+/* Committed scenes, or NULL: squares, or fibres of 16 sides, anywhere in a closed box, a round
+   room, and an open row of unit squares, one apart. */
 hr2d_scene *many_random_squares(size_t squares);
 hr2d_scene *many_fibres(size_t fibres);
 hr2d_scene *many_round(size_t patches);
+hr2d_scene *many_row(size_t squares);
 
 #endif

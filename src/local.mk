@@ -54,6 +54,7 @@ libhr2d_core_la_SOURCES = \
 	src/triangulation/delaunay.c src/triangulation/delaunay.h \
 	src/triangulation/snap-feet.c src/triangulation/snap-feet.h \
 	src/triangulation/hilbert.h \
+	src/triangulation/hull.c src/triangulation/hull.h \
 	src/triangulation/in-circle.c src/triangulation/in-circle.h \
 	src/triangulation/mesh.c src/triangulation/mesh.h \
 	src/triangulation/check-crossings.c src/triangulation/check-crossings.h \

@@ -28,6 +28,7 @@ static int follow(hr2di_triangular_expansion *x, size_t top, int32_t *h) {
     x->steps++;
     if (steps % 32 == 0 && hr2di_watch_work(x->watch, 16)) break;
     const hr2di_triangle *t = &x->in->triangle[*h >> 2];
+    if (!x->outside && hr2di_triangle_is_outside(x->in, t)) break;
     const int to_right = hr2di_corner_after(*h & 3), to_left = hr2di_corner_before(*h & 3);
     const int side =
         x->side(x->ctx, right->border, left->border, t->corner[to_left], split->border);

@@ -31,6 +31,7 @@ typedef struct hr2di_triangular_expansion {
   hr2di_watch *watch;
   hr2d_allocator alloc;
   size_t border; /* the bytes of one */
+  int outside;   /* the walk may begin outside of the hull */
   hr2di_triangular_expansion_side_fn side;
   hr2di_triangular_expansion_end_fn end;
   void *ctx;

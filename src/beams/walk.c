@@ -218,6 +218,7 @@ static int32_t back(hr2di_walk *w, chains *c, const base *b) {
    an index: where it is foreseen, the next triangle is read before the signs are known. */
 static int follow(hr2di_walk *w, const chains *c, int32_t h, entry *e, int *hand) {
   const hr2d_point *at = w->in->at;
+  const uint32_t sky = w->in->sky;
   const hr2d_point l0 = first(w, c, 0), l1 = last(w, c, 0);
   const hr2d_point r0 = first(w, c, 1), r1 = last(w, c, 1);
   for (;;) {
@@ -226,6 +227,11 @@ static int follow(hr2di_walk *w, const chains *c, int32_t h, entry *e, int *hand
     const hr2d_point v = at[t->corner[to_left]];
     int splits = 0;
     w->steps++;
+    if (t->corner[to_left] >= sky) {
+      *hand = 0;
+      e->across[0] = HR2DI_SKY;
+      return 0;
+    }
     *hand = !(hr2di_orient_sign(l0, r1, v) > 0);
     if (*hand) {
       h = t->across[to_left];

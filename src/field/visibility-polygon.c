@@ -141,8 +141,10 @@ static hr2d_status walk_from(hr2di_visibility_polygon *v, int32_t h, uint32_t ri
 
 /* In triangle `at`. */
 static hr2d_status view_from(hr2di_visibility_polygon *v, int32_t at) {
-  const hr2di_triangle t = v->scene->plane.triangulation.triangle[at];
+  const hr2di_triangulation *in = &v->scene->plane.triangulation;
+  const hr2di_triangle t = in->triangle[at];
   hr2d_status status = HR2D_OK;
+  v->between.outside = hr2di_triangle_is_outside(in, &t);
   for (int k = 0; k < 3 && !status; k++)
     status = walk_from(v, t.across[k], t.corner[k], t.corner[(k + 1) % 3]);
   return status;
@@ -161,6 +163,7 @@ static int32_t next_border(const hr2di_triangulation *t, int32_t h) {
 static hr2d_status search_in(hr2di_visibility_polygon *v, int32_t border) {
   const hr2di_triangulation *in = &v->scene->plane.triangulation;
   hr2d_status status = HR2D_OK;
+  v->between.outside = 1;
   for (int k = 0; k < 4 && !status; k++, border = next_border(in, border)) {
     const hr2di_triangle *t = &in->triangle[border >> 2];
     const uint32_t from = t->corner[border & 3], to = t->corner[((border & 3) + 1) % 3];
@@ -225,6 +228,7 @@ hr2d_status hr2di_beams_between(hr2di_visibility_polygon *v, int32_t first, int3
   int32_t h = first;
   hr2d_status status = HR2D_OK;
   v->x = in->at[in->triangle[h >> 2].corner[h & 3]];
+  v->between.outside = 0;
   while (h >= 0 && !status) {
     const hr2di_triangle *t = &in->triangle[h >> 2];
     const int to_left = hr2di_corner_after(h & 3), back = hr2di_corner_before(h & 3);

@@ -127,6 +127,7 @@ hr2d_status hr2di_sun_beams_walk(hr2di_sun_beams *b, hr2d_point direction) {
   b->between.watch = b->watch;
   b->between.alloc = b->alloc;
   b->between.border = sizeof(uint32_t);
+  b->between.outside = 1;
   b->between.side = side_of_beam;
   b->between.end = end_at;
   b->between.ctx = b;

@@ -7,6 +7,7 @@
 #include "triangulation/constraints.h"
 #include "triangulation/delaunay.h"
 #include "triangulation/freeze.h"
+#include "triangulation/hull.h"
 #include "triangulation/mesh.h"
 #include "triangulation/points.h"
 #include "triangulation/snap-feet.h"
@@ -27,13 +28,16 @@ hr2d_status hr2di_triangulation_init(hr2di_triangulation *t, const hr2d_allocato
                   .stride = stride,
                   .walls = count,
                   .units = units};
+  int closed = 0;
   hr2d_status status = hr2di_points_init(&m);
   if (!status) status = hr2di_delaunay_init(&m);
   if (!status) status = hr2di_mesh_find_out(&m);
   if (!status) status = hr2di_constraints_insert(&m, conflict);
   if (!status) status = hr2di_feet_snap(&m);
   if (!status) status = hr2di_passes_check(&m, conflict);
+  if (!status) status = hr2di_hull_fill(&m, &closed);
   if (!status) status = hr2di_freeze(&m, t, conflict);
+  t->sky = closed ? (uint32_t)m.vertices - 4 : UINT32_MAX;
   hr2di_alloc_free(m.alloc, m.at);
   hr2di_alloc_free(m.alloc, m.triangle);
   hr2di_alloc_free(m.alloc, m.out);

@@ -46,6 +46,10 @@ typedef struct hr2di_triangulation {
   hr2d_allocator alloc;
   hr2d_point *at; /* along a Hilbert curve, then the four corners of a box around all walls */
   size_t vertices;
+  /* All triangles but those with a corner of the box make up the convex hull of the walls: what
+     leaves them does not come back.  So it ends in the sky where it enters a triangle with a
+     corner of at least this number. */
+  uint32_t sky;
   hr2di_triangle *triangle;
   size_t triangles;
   hr2di_wall_edge *edge; /* by wall, and along each wall */
@@ -53,6 +57,11 @@ typedef struct hr2di_triangulation {
   uint32_t *edge_of; /* the edges of wall w are [edge_of[w], edge_of[w + 1]) */
   size_t walls;
 } hr2di_triangulation;
+
+static inline int hr2di_triangle_is_outside(const hr2di_triangulation *in,
+                                            const hr2di_triangle *t) {
+  return t->corner[0] >= in->sky || t->corner[1] >= in->sky || t->corner[2] >= in->sky;
+}
 
 /* Two walls that have more than an end in common. */
 typedef struct hr2di_conflict {

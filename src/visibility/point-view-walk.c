@@ -13,6 +13,15 @@
 #include "scene/scene-impl.h"
 #include "visibility/point-view-impl.h"
 
+/* The side of a vertex that does not turn left against the right border.  Between two horizons
+   the edge that is crossed has its ends at these, and a vertex that is in front of the edge but
+   not of the horizon is so by roundings, on either side. */
+static int side_of_behind(const hr2di_viewpoint *e, const hr2di_ray *right,
+                          const hr2di_ray *left, const hr2di_ray_filter *f) {
+  const int between = right->horizon && left->horizon;
+  return between && f->to.x * e->axis.x + f->to.y * e->axis.y < 0 ? 1 : -1;
+}
+
 /* Most vertices are far beside the angle, and the first glance says so. */
 static int side_of(void *ctx, void *right, void *left, uint32_t vertex, void *split) {
   const hr2di_point_viewer *w = ctx;
@@ -20,12 +29,12 @@ static int side_of(void *ctx, void *right, void *left, uint32_t vertex, void *sp
   const hr2d_point place = w->scene->plane.triangulation.at[vertex];
   const hr2di_ray_filter ray_filter = hr2di_ray_filter_at(e, place);
   int of_right = hr2di_ray_filter_turn(e, right, &ray_filter), of_left = 0;
-  if (of_right < 0) return -1;
+  if (of_right < 0) return side_of_behind(e, right, left, &ray_filter);
   if (of_right > 0) of_left = hr2di_ray_filter_turn(e, left, &ray_filter);
   if (of_left > 0) return 1;
   hr2di_ray_aim(e, place, vertex, split);
   if (of_right == 0) of_right = hr2di_ray_turn(e, right, split);
-  if (of_right <= 0) return -1;
+  if (of_right <= 0) return side_of_behind(e, right, left, &ray_filter);
   if (of_left == 0) of_left = hr2di_ray_turn(e, left, split);
   if (of_left >= 0) return 1;
   hr2di_ray_measure(e, split);

@@ -59,6 +59,27 @@ static const char *triangles_fault(const hr2di_triangulation *t) {
   return sky == 4 ? NULL : "the box has not four sides";
 }
 
+/* Whether h is an edge of the hull, seen from outside. */
+static int is_border(const hr2di_triangulation *t, int32_t h) {
+  const uint32_t box = (uint32_t)t->vertices - 4;
+  const uint32_t apex = t->triangle[h >> 2].corner[((h & 3) + 2) % 3];
+  return apex >= box && from_of(t, h) < box && to_of(t, h) < box;
+}
+
+/* No vertex is before an edge between two of the walls and the box; of many some are tried. */
+static const char *hull_fault(const hr2di_triangulation *t) {
+  const size_t box = t->vertices - 4, step = 1 + box / 256;
+  size_t edges = 0;
+  for (int32_t h = 0; h < (int32_t)(4 * t->triangles); h++) {
+    if ((h & 3) == 3 || !is_border(t, h)) continue;
+    edges++;
+    for (size_t v = (size_t)h % step; v < box; v += step)
+      if (hr2di_orient_sign(t->at[from_of(t, h)], t->at[to_of(t, h)], t->at[v]) > 0)
+        return "the border is not convex";
+  }
+  return t->edges > 0 && (edges < 2 || t->sky != box) ? "the border is not closed" : NULL;
+}
+
 static double between(hr2d_point p, hr2d_point q) {
   return hypot(q.x - p.x, q.y - p.y);
 }
@@ -124,6 +145,7 @@ static const char *wall_fault(const hr2di_triangulation *t, size_t wall, const h
 const char *triangulation_fault(const hr2di_triangulation *t, const hr2d_segment *first,
                                 size_t stride, double off) {
   const char *fault = triangles_fault(t);
+  if (!fault) fault = hull_fault(t);
   if (t->edge_of[0] != 0 || t->edge_of[t->walls] != t->edges) return "edges belong to no wall";
   for (size_t w = 0; w < t->walls && !fault; w++)
     fault = wall_fault(t, w, (const void *)((const char *)first + w * stride), off);

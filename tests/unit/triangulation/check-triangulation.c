@@ -499,6 +499,12 @@ static void corrupt(randoms *r, hr2di_triangulation *t, int kind) {
     while (k->across[side] == HR2DI_SKY) k = &t->triangle[random_below(r, (int)t->triangles)];
     k->across[side] = HR2DI_SKY;
     break;
+  case 9: /* where the sky begins */
+    t->sky--;
+    break;
+  case 10: /* a pocket in the hull: the first vertex of the box among those of the walls */
+    t->at[t->vertices - 5] = t->at[t->vertices - 4];
+    break;
   default: /* a ring */
     e->same = e->same ? 0 : 1;
   }
@@ -521,12 +527,44 @@ START_TEST(damage_is_noticed) {
 }
 END_TEST
 
+/* The pocket of a dish of many walls is filled from all places at once: of the triangles behind
+   one edge across it, and those behind these, there are few. */
+START_TEST(pockets_are_shallow) {
+  enum { WALLS = 4096 };
+  static hr2d_segment wall[WALLS];
+  hr2di_triangulation t;
+  hr2di_conflict conflict;
+  for (int k = 0; k < WALLS; k++) {
+    const double x = k - WALLS / 2, y = x + 1;
+    wall[k] = (hr2d_segment){{x, x * x}, {y, y * y}};
+  }
+  ck_assert_int_eq(build(&t, wall, WALLS, &conflict), HR2D_OK);
+  assert_whole(&t, wall, 0);
+  for (size_t k = 0; k < t.edges; k++) {
+    int32_t h = t.edge[k].half_edge[0]; /* inside the dish */
+    int crossed = 0;
+    for (; t.triangle[h >> 2].corner[((h & 3) + 2) % 3] < t.sky; crossed++) {
+      /* Through the longer of the other two sides. */
+      const hr2di_triangle *at = &t.triangle[h >> 2];
+      const int right = ((h & 3) + 1) % 3, left = ((h & 3) + 2) % 3;
+      const hr2d_point v = t.at[at->corner[left]], r = t.at[at->corner[right]],
+                       l = t.at[at->corner[h & 3]];
+      h = at->across[fabs(v.x - r.x) > fabs(v.x - l.x) ? right : left];
+      ck_assert_int_ge(h, 0);
+    }
+    ck_assert_int_le(crossed, 36);
+  }
+  hr2di_triangulation_clear(&t);
+}
+END_TEST
+
 TEST_SUITE("triangulation") {
   ADD_TESTS("exact", lattices_are_triangulated_exactly, squares_are_triangulated,
-            points_have_no_edges, copies_are_named, triangles_know_the_min_of_a_ring);
+            points_have_no_edges, copies_are_named, triangles_know_the_min_of_a_ring,
+            pockets_are_shallow);
   ADD_TESTS("roundings", roundings_change_nothing, rounded_feet_are_joined,
             tiny_walls_keep_their_shape);
   ADD_TESTS("failures", too_many_walls_are_refused, it_can_be_stopped);
   REPEAT_TESTS(2, "memory", memory_may_run_out);
-  REPEAT_TESTS(10, "checker", damage_is_noticed);
+  REPEAT_TESTS(12, "checker", damage_is_noticed);
 }
