@@ -37,15 +37,24 @@ configured() {
   (cd "$folder" && "$source/configure" --quiet --enable-werror "$@" >configure.log)
 }
 
-# run SETTING TESTS: all of them if there are none.  The program of the library is not built for
-# suites that are named.
+# The objects of the suites that are named: each one adds itself to the program.
+objects_of() {
+  for suite in tests/suites.c "$@"; do
+    echo "${suite%/*}/check_suites-$(basename "$suite" .c).o"
+  done
+}
+
+# run SETTING SUITES: all tests if there are none.  The program of the library is not built for
+# suites that are named, nor other suites.
 run() {
   folder=matrix/$1 bad=0 goal=check
   tests=${HR2D_MATRIX_TESTS:-$2}
   [ -z "$tests" ] || goal=check-TESTS
+  # shellcheck disable=SC2086 # names are words
   make -C "$folder" -s -j"$jobs" $goal \
-    ${tests:+TESTS="$tests" check_PROGRAMS=tests/check-suites} >"$folder/check.log" 2>&1 ||
-    bad=1
+    ${tests:+TESTS="$tests" check_PROGRAMS=tests/check-suites} \
+    ${tests:+tests_check_suites_OBJECTS="$(objects_of $tests | paste -sd ' ')"} \
+    >"$folder/check.log" 2>&1 || bad=1
   sh "$source/tests/summary.sh" "$folder" >"$folder/summary" || bad=1
   [ $bad = 0 ] || cat "$folder/tests/test-suite.log" "$folder/check.log"
   sed '$d' "$folder/summary"
