@@ -378,10 +378,18 @@ PAPERWORK = tests/docs/check-docs.sh tests/program/check-help.sh tests/program/c
 check-sanitized:
 	CK_FORK=no $(MAKE) check TESTS='$(filter-out $(PAPERWORK),$(TESTS))'
 
+# What callers, files and failing memory may do to the library and the program.
+HOSTILE = $(filter tests/arguments/% tests/faults/% tests/unit/formats/% tests/unit/state/% \
+	tests/unit/repair/% tests/unit/triangulation/%,$(SUITES)) \
+	tests/unit/operator/check-operator-calls.c tests/unit/accuracy/check-target-calls.c \
+	tests/program/check-program-faults.sh tests/program/check-cli.sh
+check-hostile:
+	CK_FORK=no $(MAKE) check TESTS='$(HOSTILE)'
+
 # All compilers, levels of optimisation and sanitizers; takes an hour.
 check-matrix:
 	$(SHELL) $(srcdir)/tests/matrix.sh
-.PHONY: check-valgrind check-sanitized check-matrix
+.PHONY: check-valgrind check-sanitized check-hostile check-matrix
 
 # The table of doc/hard-cases.md, measured by the suites of hard cases.
 HARD = $(filter tests/hard/%,$(SUITES))
