@@ -133,7 +133,7 @@ START_TEST(what_is_declared_is_what_is_done) {
 
   s = stage(SLOW_CITY, 2000, NULL);
   w = watch_phase(phase_called("events"), &s, (witness){0});
-  declares("events", w, (double)hr2d_scene_patches(s.scene) * 100);
+  declares("events", w, (double)hr2d_scene_patches(s.scene) * 50);
   slow_clear(&s);
 
   s = stage(SLOW_SQUARES, 4000, NULL);
