@@ -20,9 +20,10 @@
  *     hr2d_operator_destroy(op);
  *
  * **Elements** end at the visibility events that may matter for light of the same largest
- * radiosity, and are divided for the light that the scene has. Other light may want them divided elsewhere: the account of
- * each solve measures the errors of that light on these elements, and says if they are above
- * the target. So let the scene have light, or several bands of light, like what will come.
+ * radiosity, and are divided for the light that the scene has. Other light may want them
+ * divided elsewhere: the account of each solve measures the errors of that light on these
+ * elements, and says if they are above the target. So let the scene have light, or several
+ * bands of light, like what will come.
  *
  * **Threads.** One thread at a time may use an operator; its solutions may be read by other
  * ones at the same time.
