@@ -4,8 +4,7 @@
    Usage: bench-fibres [--row] [--error] [PATCHES...]; 8004 and 64004 patches unless given. Each
    size has a process of its own.  Seconds are of the processor, so that other work on the
    machine matters little; parts of them follow the clock.  With --error the error is measured,
-   too; with
-   --row the scene is an open row of unit squares, one apart.
+   too.  With --row the scene is an open row of unit squares, one apart.
 
    Usage: bench-fibres --write FIBRES SIDES; prints such a scene as GeoJSON, for other programs.
  */

@@ -93,10 +93,6 @@ static void derive(const gsl_vector *x, void *ctx, gsl_vector *slope) {
   evaluate(x, ctx, &j, slope);
 }
 
-static void evaluate_both(const gsl_vector *x, void *ctx, double *j, gsl_vector *slope) {
-  evaluate(x, ctx, j, slope);
-}
-
 static void report(const channel *c, const gsl_vector *x) {
   printf("heater %.3f, cooled wall %.3f\n", emissivity_of(x, 0), emissivity_of(x, 1));
   for (size_t k = 0; k < PLATES; k++)
@@ -104,7 +100,7 @@ static void report(const channel *c, const gsl_vector *x) {
 }
 
 static void fit(channel *c) {
-  gsl_multimin_function_fdf f = {value, derive, evaluate_both, 2, c};
+  gsl_multimin_function_fdf f = {value, derive, evaluate, 2, c};
   gsl_vector *x = gsl_vector_calloc(2);
   gsl_multimin_fdfminimizer *m =
       gsl_multimin_fdfminimizer_alloc(gsl_multimin_fdfminimizer_vector_bfgs2, 2);

@@ -89,10 +89,6 @@ static void derive(const gsl_vector *x, void *ctx, gsl_vector *slope) {
   evaluate(x, ctx, &j, slope);
 }
 
-static void evaluate_both(const gsl_vector *x, void *ctx, double *j, gsl_vector *slope) {
-  evaluate(x, ctx, j, slope);
-}
-
 static void report(const hall *h, const gsl_vector *x) {
   printf("lamps from the left, W/m²:");
   for (size_t k = LAMPS; k-- > 0;) printf(" %.0f", pow(gsl_vector_get(x, k), 2));
@@ -102,7 +98,7 @@ static void report(const hall *h, const gsl_vector *x) {
 }
 
 static int minimise(hall *h) {
-  gsl_multimin_function_fdf f = {value, derive, evaluate_both, LAMPS, h};
+  gsl_multimin_function_fdf f = {value, derive, evaluate, LAMPS, h};
   gsl_vector *x = gsl_vector_alloc(LAMPS);
   gsl_multimin_fdfminimizer *m =
       gsl_multimin_fdfminimizer_alloc(gsl_multimin_fdfminimizer_vector_bfgs2, LAMPS);

@@ -98,16 +98,6 @@ static hr2di_border through(const hr2di_event_beams *b, uint32_t vertex) {
   return (hr2di_border){b->at, b->in->at[vertex], vertex, HR2DI_NO_VERTEX};
 }
 
-/* The side of a vertex that is not on the left of the right border.  Between the two halves of
-   the line of a wall it is behind that line by roundings, on either side. */
-static int side_of_behind(const hr2di_event_beams *b, const hr2di_border *right,
-                          const hr2di_border *left, hr2d_point at) {
-  const int between = right->tip == HR2DI_NO_VERTEX && left->tip == HR2DI_NO_VERTEX;
-  const hr2d_point along = hr2di_point_minus(right->to, right->from),
-                   to = hr2di_point_minus(at, b->at);
-  return between && hr2di_point_dot(along, to) < 0 ? 1 : -1;
-}
-
 static int side_of(void *ctx, void *on_right, void *on_left, uint32_t vertex, void *split) {
   const hr2di_event_beams *b = ctx;
   hr2di_border *right = on_right, *left = on_left;
@@ -120,7 +110,7 @@ static int side_of(void *ctx, void *on_right, void *on_left, uint32_t vertex, vo
   }
   if (from_right == 0 && b->free[vertex]) right->behind = vertex;
   if (from_left == 0 && b->free[vertex]) left->behind = vertex;
-  return from_right > 0 ? 1 : side_of_behind(b, right, left, at);
+  return from_right > 0 ? 1 : -1;
 }
 
 /* Begins with the next origin. */

@@ -136,6 +136,12 @@ START_TEST(what_is_declared_is_what_is_done) {
   declares("events", w, (double)hr2d_scene_patches(s.scene) * 50);
   slow_clear(&s);
 
+  /* Where beams meet more before they end. */
+  s = stage(SLOW_COMB, 1000, NULL);
+  w = watch_phase(phase_called("events"), &s, (witness){0});
+  declares("events of a comb", w, (double)hr2d_scene_patches(s.scene) * 100);
+  slow_clear(&s);
+
   s = stage(SLOW_SQUARES, 4000, NULL);
   w = watch_phase(phase_called("read"), &s, (witness){0});
   declares("read", w, (double)s.size / 16);

@@ -46,14 +46,14 @@ static void triangulate(scene *s) {
   ck_assert_uint_le(s->sides, SIDES);
 }
 
-/* A closed room with walls on a grid. */
-static void draw_scene(unsigned long *state, scene *s) {
+/* Walls on a grid, in a closed room or under the open sky. */
+static void draw_scene(unsigned long *state, int room, scene *s) {
   lattice p[MOST];
   const int size = 2 + (int)lattice_random(state, 7),
             count = 1 + (int)lattice_random(state, 24);
   const hr2d_point corner[] = {{-2, -2}, {size + 2, -2}, {size + 2, size + 2}, {-2, size + 2}};
   s->walls = 0;
-  for (int k = 0; k < 4; k++)
+  for (int k = 0; k < 4 && room; k++)
     s->wall[s->walls++] = (hr2d_segment){corner[k], corner[(k + 1) % 4]};
   lattice_draw(state, p, (size_t)count, size, 1 + lattice_random(state, size));
   for (int k = 0; k < count; k++) {
@@ -143,7 +143,7 @@ START_TEST(sights_add_up_to_pairs) {
   size_t pairs = 0, seen = 0;
   for (int k = test_count(3000); k > 0; k--) {
     scene s;
-    draw_scene(&state, &s);
+    draw_scene(&state, _i, &s);
     walk_all(&s, 0, take, views);
     for (uint32_t i = 0; i < s.sides; i++) {
       const hr2d_segment at = hr2di_wall_side_at(&s.t, i);
@@ -159,7 +159,7 @@ START_TEST(sights_add_up_to_pairs) {
         if ((area > 0) != (other > 0)) print_scene(&s);
         ck_assert_msg((area > 0) == (other > 0), "%u %u: %g %g", i, j, area, other);
       }
-      if (i < 8 && !(i & 1)) /* the inside of the room */
+      if (_i && i < 8 && !(i & 1)) /* the inside of the room */
         worst_row = fmax(worst_row, fabs(row / plane_length(at) - 1));
     }
     close_scene(&s);
@@ -178,7 +178,7 @@ START_TEST(both_ends_find_the_same) {
   long classes = 0;
   for (int k = test_count(3000); k > 0; k--) {
     scene s;
-    draw_scene(&state, &s);
+    draw_scene(&state, _i, &s);
     walk_all(&s, 0, take, from);
     walk_all(&s, 0, take_turned, back);
     for (uint32_t i = 0; i < s.sides; i++)
@@ -202,7 +202,7 @@ START_TEST(once_is_once) {
   long from_both = 0;
   for (int k = test_count(3000); k > 0; k--) {
     scene s;
-    draw_scene(&state, &s);
+    draw_scene(&state, _i, &s);
     walk_all(&s, 0, take, all);
     walk_all(&s, 1, take, once);
     for (uint32_t i = 0; i < s.sides; i++)
@@ -244,7 +244,7 @@ START_TEST(parts_of_a_side) {
     scene s;
     unsigned char wanted[SIDES];
     memset(wanted, 1, sizeof wanted);
-    draw_scene(&state, &s);
+    draw_scene(&state, 1, &s);
     narrowed n;
     hr2di_walk w = walk_of(&s, wanted, take_part);
     w.ctx = &n;
@@ -334,7 +334,7 @@ START_TEST(lines_go_on_through_walls) {
     scene s;
     unsigned char wanted[SIDES];
     memset(wanted, 1, sizeof wanted);
-    draw_scene(&state, &s);
+    draw_scene(&state, 1, &s);
     hr2di_walk w = walk_of(&s, wanted, go_through);
     g.further = walk_of(&s, wanted, add_area);
     w.ctx = g.further.ctx = &g;
@@ -350,7 +350,45 @@ START_TEST(lines_go_on_through_walls) {
 }
 END_TEST
 
+/* The triangles that all beams of an open row of squares enter. */
+static uint64_t steps_in_row(size_t squares) {
+  const hr2d_allocator alloc = hr2di_alloc_default();
+  hr2d_segment *wall = malloc(4 * squares * sizeof *wall);
+  unsigned char *wanted = calloc(8 * squares, 1);
+  hr2di_triangulation t;
+  hr2di_conflict conflict;
+  for (size_t k = 0; k < 4 * squares; k++) {
+    const double x = 2 * (double)(k / 4);
+    const hr2d_point corner[] = {{x, 0}, {x, 1}, {x + 1, 1}, {x + 1, 0}};
+    wall[k] = (hr2d_segment){corner[k % 4], corner[(k + 1) % 4]};
+  }
+  ck_assert_int_eq(hr2di_triangulation_init(&t, &alloc, wall, 4 * squares, sizeof *wall,
+                                            HR2DI_UNITS, &conflict, NULL),
+                   HR2D_OK);
+  hr2di_walk w = {.in = &t, .wanted = wanted, .alloc = alloc};
+  for (uint32_t side = 0; side < 2 * t.edges; side++)
+    ck_assert_int_eq(hr2di_walk_from(&w, side, NULL), HR2D_OK);
+  const uint64_t steps = w.steps;
+  hr2di_walk_clear(&w);
+  hr2di_triangulation_clear(&t);
+  free(wall);
+  free(wanted);
+  return steps;
+}
+
+/* A beam that leaves the row walks no triangles around it: those are as many as squares. */
+START_TEST(beams_end_at_the_hull) {
+  const uint64_t few = steps_in_row(100), many = steps_in_row(1000);
+  printf("%llu steps in a row of 100, %llu in one of 1000\n", (unsigned long long)few,
+         (unsigned long long)many);
+  ck_assert_uint_gt(few, 100);
+  ck_assert_uint_le(many, 11 * few);
+}
+END_TEST
+
 TEST_SUITE("walk") {
-  ADD_TESTS("walk", sights_add_up_to_pairs, both_ends_find_the_same, once_is_once,
-            parts_of_a_side, parts_that_are_off_their_side, lines_go_on_through_walls);
+  REPEAT_TESTS(2, "open and closed", sights_add_up_to_pairs, both_ends_find_the_same,
+               once_is_once);
+  ADD_TESTS("walk", parts_of_a_side, parts_that_are_off_their_side, lines_go_on_through_walls,
+            beams_end_at_the_hull);
 }
