@@ -3,7 +3,7 @@ BENCHES = bench/bench-exchange-area bench/bench-refine bench/bench-l1 bench/benc
 	bench/bench-growth bench/bench-shaded-links bench/bench-blocks \
 	bench/bench-accuracy bench/bench-budgets bench/bench-polls bench/bench-prediction \
 	bench/bench-fibres bench/bench-solves bench/bench-threads bench/bench-triangulation bench/bench-field \
-	bench/bench-bands bench/bench-operator
+	bench/bench-bands bench/bench-operator bench/bench-choices
 EXTRA_PROGRAMS += $(BENCHES)
 CLEANFILES += $(BENCHES)
 bench_bench_exchange_area_SOURCES = bench/bench-exchange-area.c bench/timing.h
@@ -51,6 +51,9 @@ bench_bench_operator_SOURCES = bench/bench-operator.c bench/bars.c bench/bars.h 
 	$(SOLVE_TASKS)
 bench_bench_operator_CPPFLAGS = $(AM_CPPFLAGS) -DBENCH_SOURCE='"$(abs_top_srcdir)"'
 bench_bench_operator_LDADD = libhr2d-core.la $(THREADS_LIBS) -lm
+bench_bench_choices_SOURCES = bench/bench-choices.c bench/timing.h $(SOLVE_TASKS)
+bench_bench_choices_CPPFLAGS = $(AM_CPPFLAGS) -DBENCH_SOURCE='"$(abs_top_srcdir)"'
+bench_bench_choices_LDADD = libhr2d-core.la $(THREADS_LIBS) -lm
 EXTRA_DIST += bench/choices.sh bench/scenes
 bench_bench_fibres_SOURCES = bench/bench-fibres.c bench/alone.c bench/alone.h bench/many.c \
 	bench/many.h bench/timing.h tests/support/random.c tests/support/random.h
