@@ -53,6 +53,7 @@ SUITES = \
 	tests/unit/hierarchy/check-hierarchy.c \
 	tests/unit/hierarchy/check-fields.c \
 	tests/unit/refine/check-refine.c \
+	tests/unit/refine/check-brightness.c \
 	tests/unit/refine/check-partition.c \
 	tests/unit/refine/check-rows.c \
 	tests/unit/refine/check-claims.c \

@@ -119,12 +119,13 @@ HR2D_API const hr2d_oracle *hr2d_oracle_size(void);
 HR2D_API const hr2d_oracle *hr2d_oracle_size2(void);
 
 /**
- * The oracle `bf`, Hanrahan's form factor × brightness: G(x_c,y_c)·max(A_x,A_y)·B_y.
+ * The oracle `bf`, Hanrahan's form factor × brightness: max(F_xy, F_yx)·B_y.
  *
- * B_y is relative to the brightest element. The cosines of G are taken by absolute value.
- * Dimensionless, directed: (i,j) asks for the light from j to i. The value is 0 if B_y is 0;
- * otherwise it is infinite if the centres coincide. The relative error is at most 24·2^-53,
- * also at grazing angles.
+ * F_xy = AF/A_x and F_yx = AF/A_y, with AF of hr2d_exchange_area(): factors from the centres
+ * are 0 where a centre lies on the line of the other element, although there is light. B_y is
+ * relative to the brightest element. Dimensionless, directed: (i,j) asks for the light from j
+ * to i. The value is 0 if B_y or AF is 0. The relative error is at most 39·2^-53; an AF below
+ * DBL_MIN has an error relative to DBL_MIN.
  *
  * @return a static table
  */

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "geometry/determinant.h"
+#include "geometry/exchange-area.h"
 #include "oracle/built-in.h"
 #include "oracle/squares.h"
 
@@ -14,6 +14,10 @@
 
 static double larger(double p, double q) {
   return p > q ? p : q;
+}
+
+static double smaller(double p, double q) {
+  return p < q ? p : q;
 }
 
 static double centre_distance2(const hr2d_element *i, const hr2d_element *j) {
@@ -109,54 +113,16 @@ static hr2d_status accept_size2(void *ctx, const hr2d_batch *batch, double epsil
   return accept_squares(batch, epsilon, epsilon, size2_of_pair, accepted);
 }
 
-/* The cosine at an element's centre towards another's, by absolute value; they are d apart. */
-static hr2di_scaled scaled_cosine(const hr2d_element *e, const hr2di_vector *d,
-                                  hr2di_scaled r) {
-  const hr2di_vector along = hr2di_vector_difference_scaled(e->b, e->a);
-  hr2di_scaled det = hr2di_det_scaled(&along, d);
-  det.m = fabs(det.m);
-  return hr2di_scaled_div(hr2di_scaled_div(det, hr2di_scaled_of(e->length, 0)), r);
-}
-
-static double scaled_bf(const hr2d_element *i, const hr2d_element *j, double brightness) {
-  const hr2di_vector d = hr2di_vector_difference_scaled(j->centre, i->centre);
-  const hr2di_scaled r = hr2di_vector_length_scaled(&d);
-  if (r.m == 0) return HUGE_VAL;
-  const hr2di_scaled cosines =
-      hr2di_scaled_mul(scaled_cosine(i, &d, r), scaled_cosine(j, &d, r));
-  const hr2di_scaled size =
-      hr2di_scaled_div(hr2di_scaled_of(larger(i->length, j->length), -1), r);
-  return hr2di_scaled_value(
-      hr2di_scaled_mul(hr2di_scaled_mul(cosines, size), hr2di_scaled_of(brightness, 0)));
-}
-
-/* G(x_c,y_c)·max(A_x,A_y)·B_y; lengths cancel, so that only ratios are formed.  Determinants
-   have 2 roundings, r has 3, a cosine 7 and the product 21.  Pairs that could lose bits of a
-   difference, or leave the range of a double on the way, go to scaled_bf(). */
-static double bf_of_pair(const hr2d_element *i, const hr2d_element *j, double brightness) {
-  if (!(brightness > 0)) return 0;
-  if (!hr2di_point_plain(i->a) || !hr2di_point_plain(i->b) || !hr2di_point_plain(i->centre) ||
-      !hr2di_point_plain(j->a) || !hr2di_point_plain(j->b) || !hr2di_point_plain(j->centre))
-    return scaled_bf(i, j, brightness);
-  const hr2di_vector along_i = hr2di_vector_difference(i->b, i->a);
-  const hr2di_vector along_j = hr2di_vector_difference(j->b, j->a);
-  const hr2di_vector d = hr2di_vector_difference(j->centre, i->centre);
-  const double r = hr2di_vector_length(&d);
-  if (!(r > 0)) return HUGE_VAL;
-  const double cos_i = fabs(hr2di_det(&along_i, &d)) / (i->length * r);
-  const double cos_j = fabs(hr2di_det(&along_j, &d)) / (j->length * r);
-  const double cosines = 0.5 * cos_i * cos_j;
-  if (!(cosines > 1e-250 && cosines < 1e250)) return scaled_bf(i, j, brightness);
-  return cosines * (larger(i->length, j->length) / r) * brightness;
-}
-
+/* AF/min(A_x,A_y)·B_y, the larger of the form factors of the two elements times brightness. */
 static hr2d_status estimate_bf(void *ctx, const hr2d_batch *batch, double *error) {
   (void)ctx;
+  hr2di_exchange_areas(batch->elements, batch->pairs, batch->count, error);
   for (size_t k = 0; k < batch->count; k++) {
     const hr2d_pair pair = batch->pairs[k];
-    error[k] = weight(batch, k) *
-               bf_of_pair(&batch->elements[pair.first], &batch->elements[pair.second],
-                          batch->brightness ? batch->brightness[pair.second] : 1);
+    const double factor = error[k] / smaller(batch->elements[pair.first].length,
+                                             batch->elements[pair.second].length);
+    const double brightness = batch->brightness ? batch->brightness[pair.second] : 1;
+    error[k] = error[k] > 0 ? weight(batch, k) * factor * brightness : 0;
   }
   return HR2D_OK;
 }
