@@ -28,7 +28,8 @@ int job_load_scene(job *j);
 /* run.c: refines and solves.  Returns 0 or the exit status. */
 int job_run(job *j);
 
-/* whole.c: whether the links of a stage follow from the brightness of the former one's. */
+/* whole.c: whether the links of a stage or round follow from the brightness of the former
+ * one's. */
 int job_follows_brightness(const options *o);
 
 /* Whether the options or the scene ask for what needs all elements on every rank; and solves

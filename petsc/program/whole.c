@@ -8,7 +8,7 @@
 #include "solve/solve.h"
 
 int job_follows_brightness(const options *o) {
-  return o->oracle->flags & HR2D_ORACLE_NEEDS_BRIGHTNESS && o->multigrid.ratio > 0;
+  return o->oracle->flags & HR2D_ORACLE_NEEDS_BRIGHTNESS;
 }
 
 int job_is_whole(const options *o, const hr2d_scene *scene) {

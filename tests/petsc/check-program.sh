@@ -32,7 +32,8 @@ check "a difference would be found" \
   eval '! python3 "$HR2D_SRCDIR/tests/petsc/same-averages.py" "$work/one" "$work/three1" 2>"$work/out"'
 
 # ---- targets, orders and what needs all elements: the same bits on any number of ranks
-whole() { # whole NAME ARGUMENTS...: compares with hr2d solve
+but=
+whole() { # whole NAME ARGUMENTS...: compares with hr2d solve, without the counts in $but
   what=$1
   shift
   for n in 1 2 3 4; do
@@ -43,8 +44,9 @@ whole() { # whole NAME ARGUMENTS...: compares with hr2d solve
     finish $n
   done
   for n in 1 2 3 4; do
+    # shellcheck disable=SC2086 # no word or two
     check "$what on $n ranks: $(cat "$work/errors" "$work/$n.errors")" python3 \
-      "$HR2D_SRCDIR/tests/petsc/same-averages.py" "$work/one" "$work/whole$n" "$work/whole1"
+      "$HR2D_SRCDIR/tests/petsc/same-averages.py" $but "$work/one" "$work/whole$n" "$work/whole1"
   done
 }
 whole "lit room to 1e-6" "$scenes/lit-room.geojson" --target-error 1e-6
@@ -53,6 +55,14 @@ whole "panels at points" "$scenes/solar-panels.geojson" --target-error 1e-2 --no
 whole "furnace of order 4" "$scenes/furnace-enclosure.geojson" --order 4 --eps 0.3
 whole "partition of order 2" "$scenes/partition.geojson" --order 2 --eps 0.4 --no-closure
 whole "brightness" "$scenes/lit-room.geojson" --oracle bf --multigrid 0.5:0.5 --eps 0.1
+whole "rounds of brightness" "$scenes/lit-room.geojson" --oracle bf --eps 0.02
+# Which visibility tests a further refinement makes depends on the ranks.
+but="--but visibility_tests"
+whole "rounds behind a screen" "$scenes/screened-room.geojson" --oracle bf --eps 0.05 --no-error
+but=
+for n in 1 3 4; do
+  check "there are 3 rounds on $n ranks" grep -q '"rounds": 3' "$work/whole$n"
+done
 cat >"$work/heated.geojson" <<'END'
 {"type": "FeatureCollection", "hr2d": {"wavelengths": [3, 8]}, "features": [
 {"type": "Feature", "properties": {"temperature": 1500, "emissivity": [0.3, 0.5, 0.9]},
@@ -216,12 +226,23 @@ resumes() { # resumes WHAT SCENE FROM MIDDLE ALL ARGUMENTS...: ALL makes the sta
 }
 resumes "order 3" "$scenes/furnace-enclosure.geojson" 0.8:0.5 0.4 0.4:0.5 --order 3
 resumes "bands of order 2" "$room" 0.8:0.5 0.4 0.4:0.5 --order 2
-# Without the post: which visibility tests a further refinement makes depends on the ranks.
+# Without the post, for the sake of visibility tests.
 grep -v -e '"both"' -e '0.7, 0.3' "$work/half.geojson" | sed 's/\(\[2, 3\], \[0, 3\]\]}}\),/\1]}/' \
   >"$work/bare.geojson"
 resumes "half of order 2" "$work/bare.geojson" 0.8:0.5 0.4 0.4:0.5 --order 2
 resumes "half of order 1" "$work/bare.geojson" 0.8:0.5 0.4 0.4:0.5
 resumes "brightness" "$room" 0.4:0.5 0.2 0.4:0.5 --oracle bf
+# Rounds: the calls that made a state of hr2d solve are not in it.
+rm -f "$work/state1" "$work/state2"
+"$HR2D_PROGRAM" solve "$room" --oracle bf --eps 0.05 --no-error --quiet --state "$work/state1"
+"$HR2D_PROGRAM" solve "$room" --oracle bf --eps 0.02 --no-error --quiet --state "$work/state1" \
+  --json "$work/one"
+ranks 2 "$program" solve "$room" --oracle bf --eps 0.05 --no-error --quiet --state "$work/state2"
+ranks 3 "$program" solve "$room" --oracle bf --eps 0.02 --no-error --quiet --state "$work/state2" \
+  --json "$work/three" 2>"$work/errors"
+check "rounds go on from the light of other rounds: $(cat "$work/errors")" python3 \
+  "$HR2D_SRCDIR/tests/petsc/same-averages.py" \
+  --but oracle_calls,facing_tests,visibility_tests,exchange_areas "$work/one" "$work/three"
 ranks 3 "$program" solve "$room" --eps 0.1 --order 2 --state "$work/stage1" >"$work/out" 2>&1
 check "a state of another oracle is refused" grep -q "of another oracle" "$work/out"
 ranks 3 "$program" solve "$room" --eps 0.2 --oracle bf --multigrid 0.4:0.5 \

@@ -193,6 +193,14 @@ check "CSV quotes names" grep -q '^0,"a:b, ""c""",0,' "$work/out"
 succeeds solve "$far" --oracle bf --variant modified --multigrid 1:0.5 --eps 0.01 --threads 2 \
   --json "$work/bf.json"
 check "bf is directed and named" grep -q '"oracle": "bf"' "$work/bf.json"
+check "stages of multigridding have no rounds" grep -q '"rounds": 1,' "$work/bf.json"
+# Emission alone makes 23,072 links of these, and an error of 23 %.
+succeeds solve "$scenes/screened-room.geojson" --oracle bf --eps 0.0125 --no-error --json "$work/bf.json"
+check "bf refines by the light found" \
+  eval 'grep -q "3 rounds, each by the light of the last" "$work/out" && grep -q "\"links\": 27666," "$work/bf.json"'
+succeeds solve "$scenes/screened-room.geojson" --oracle size --eps 0.2 --no-error --json "$work/size.json"
+check "size does not ask for light" \
+  eval 'lacks rounds "$work/out" && grep -q "\"rounds\": 1," "$work/size.json"'
 succeeds solve "$narrow" --quiet --multigrid 1:0.5 --eps 0.0625 --json "$work/many.json"
 check "multigridding ends with the links of the last step" \
   grep -q '^  "links": 15244,$' "$work/many.json"

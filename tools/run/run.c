@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Refines and solves once, or for falling ε in stages, each of which starts from the last. */
+/* Refines and solves once, or for falling ε in stages, each of which starts from the last.
+   Where links follow from light, a run without stages is made of rounds at its only ε. */
 #include "run/run.h"
 
 #include <math.h>
@@ -9,6 +10,8 @@
 #include "output/clock.h"
 #include "output/complain.h"
 #include "run/state.h"
+
+enum { MOST_ROUNDS = 20 };
 
 hr2d_refine_options run_refine_options(const options *o) {
   hr2d_refine_options refine = HR2D_REFINE_OPTIONS_INIT;
@@ -84,6 +87,36 @@ static hr2d_status solve_stage(run *r, progress *p) {
   return HR2D_OK;
 }
 
+/* Whether the light of the last round may ask for more links: they and the elements are still
+   increasing, since what was accepted in the dark is refined when light is found there. */
+static int wants_round(const run *r, const hr2d_refine_counts *before) {
+  const hr2d_refine_counts now = hr2d_linkset_counts(r->links);
+  return r->options->oracle->flags & HR2D_ORACLE_NEEDS_BRIGHTNESS &&
+         !(r->options->multigrid.ratio > 0) && r->rounds < MOST_ROUNDS &&
+         (now.elements != before->elements || now.links != before->links);
+}
+
+/* Refines, solves and saves for one ε, once or in rounds. */
+static int run_stage(run *r, double epsilon, progress *p) {
+  hr2d_refine_counts before;
+  hr2d_status status;
+  int code = 0;
+  r->rounds = 0;
+  do {
+    before = hr2d_linkset_counts(r->links);
+    status = refine_stage(r, epsilon, p);
+    if (!status) status = solve_stage(r, p);
+    if (!status) code = state_save(r);
+    r->rounds++;
+  } while (!status && !code && wants_round(r, &before));
+  if (status) {
+    progress_clear(p);
+    code = complain_call(r->options->scene, hr2d_linkset_message(r->links), status);
+    state_mention(r);
+  }
+  return code;
+}
+
 static int run_stages(run *r, progress *p) {
   const options *o = r->options;
   hr2d_status status = hr2d_hierarchy_create(r->scene, &r->own_hierarchy);
@@ -98,17 +131,11 @@ static int run_stages(run *r, progress *p) {
   int code = state_load(r);
   p->steps = count_stages(o);
   p->step = first_stage(r, p->steps);
-  for (; !status && !code && p->step < p->steps; p->step++) {
-    status = refine_stage(r, stage_epsilon(o, p->step), p);
-    if (!status) status = solve_stage(r, p);
-    if (!status) code = state_save(r);
-  }
+  for (; !code && p->step < p->steps; p->step++)
+    code = run_stage(r, stage_epsilon(o, p->step), p);
   p->steps = 0;
   r->account.links = hr2d_linkset_counts(r->links).links;
   progress_clear(p);
-  if (!status) return code;
-  code = complain_call(o->scene, hr2d_linkset_message(r->links), status);
-  state_mention(r);
   return code;
 }
 

@@ -46,7 +46,8 @@ typedef struct run {
   hr2d_solution *solution;
   hr2d_hierarchy *own_hierarchy; /* NULL if the solution owns its hierarchy and links */
   hr2d_linkset *own_links;
-  hr2d_solve_work work;            /* over all stages of multigridding */
+  unsigned rounds;                 /* of the last stage, until links and light agree */
+  hr2d_solve_work work;            /* over all stages and rounds */
   hr2d_account account;            /* order, L, seconds, and errors, NaN if unknown */
   double resumed;                  /* ε of the state that the run started from; 0: none */
   double kept;                     /* ε of the state in the file of --state; 0: none */

@@ -88,6 +88,7 @@ static json_t *work(const run *r, const hr2d_refine_counts *n) {
   json_put(&object, "partial_links", json_count(n->partial_links));
   json_put(&object, "blocked_pairs", json_count(n->blocked_pairs));
   json_put(&object, "dark_pairs", json_count(n->dark_pairs));
+  json_put(&object, "rounds", json_count(r->rounds));
   json_put(&object, "sweeps", json_count(r->work.gathers));
   json_put(&object, "iterations", json_count(r->work.iterations));
   json_put(&object, "row_sums", json_count(r->work.row_sums));

@@ -100,6 +100,8 @@ static void print_method(const run *r) {
   if (!options_targeted(o)) {
     printf("method    oracle %s, variant %s, epsilon %g\n", o->oracle->name, o->policy->name,
            o->epsilon);
+    if (r->rounds > 1)
+      printf("          %u rounds, each by the light of the last\n", r->rounds);
     if (r->resumed > 0) printf("          from epsilon %g in %s\n", r->resumed, o->state);
     return;
   }
