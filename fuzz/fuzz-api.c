@@ -73,23 +73,23 @@ static int make_scene(api_run *r) {
 }
 
 static void make_links(api_run *r, unsigned slot) {
-  static const char *const oracles[] = {"size", "size2", "bf", "l1", "l1-grid"};
+  static const char *const oracles[] = {"size", "size2", "bf", "l1", "l1-grid", "bounds"};
   api_slot *s = &r->slot[slot];
   hr2d_hierarchy **hierarchy = &r->hierarchy[slot / 2];
   const unsigned o = fuzz_below(r->in, 8), p = fuzz_below(r->in, 4);
   if (!*hierarchy) REQUIRE(hr2d_hierarchy_create(r->scene, hierarchy) == HR2D_OK);
   s->callbacks = (fuzz_callbacks){fuzz_byte(r->in), fuzz_below(r->in, 4) == 0, 0};
-  s->oracle = o < 5   ? hr2d_oracle_find(oracles[o])
+  s->oracle = o < 6   ? hr2d_oracle_find(oracles[o])
               : o < 7 ? &fuzz_oracle_symmetric
                       : &fuzz_oracle_directed;
   s->policy = p == 0   ? hr2d_policy_original()
               : p == 1 ? hr2d_policy_modified()
               : p == 2 ? &fuzz_policy_free
                        : NULL;
-  s->owners = (o >= 5) + (p == 2);
+  s->owners = (o >= 6) + (p == 2);
   s->ordered = fuzz_below(r->in, 4) == 0;
   const hr2d_status status =
-      hr2d_linkset_create(*hierarchy, s->oracle, o >= 5 ? &s->callbacks : NULL, s->policy,
+      hr2d_linkset_create(*hierarchy, s->oracle, o >= 6 ? &s->callbacks : NULL, s->policy,
                           p == 2 ? &s->callbacks : NULL, &s->links);
   REQUIRE(status == HR2D_OK && s->links);
   REQUIRE(hr2d_linkset_size(s->links) == 0 && !*hr2d_linkset_message(s->links));

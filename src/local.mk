@@ -162,6 +162,7 @@ libhr2d_core_la_SOURCES = \
 	src/hierarchy/push-pull.c src/hierarchy/push-pull.h \
 	src/hierarchy/unite.c \
 	src/oracle/built-in.h \
+	src/oracle/bounds.c \
 	src/oracle/l1.c src/oracle/l1.h \
 	src/oracle/l1-bounds.c \
 	src/oracle/l1-breaks.c \

@@ -12,6 +12,7 @@ SUITES = \
 	tests/unit/solution/check-irradiance-points.c \
 	tests/unit/clusters/check-clusters.c \
 	tests/unit/oracle/check-l1.c \
+	tests/unit/oracle/check-bounds.c \
 	tests/unit/field/check-field-grid.c \
 	tests/faults/check-polls.c \
 	tests/faults/check-faults-accuracy.c \

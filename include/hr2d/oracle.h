@@ -17,6 +17,7 @@
  * - `size` and `bf` double it, and `size2`, the square, multiplies it by four, so that elements
  *   are half as long there.
  * - `l1` and `l1-grid` add the unoccluded exchange area. An occluder cannot change more.
+ * - `bounds` takes 0 for the least kernel.
  *
  * Estimates are functions of the ends, centres and lengths that the elements hold, each taken
  * as exact. Error bounds are relative. They hold if coordinates are below 2 and if the
@@ -162,8 +163,23 @@ HR2D_API const hr2d_oracle *hr2d_oracle_l1(void);
 HR2D_API const hr2d_oracle *hr2d_oracle_l1_grid(void);
 
 /**
+ * The oracle `bounds` of Lischinski, Smits and Greenberg (1994): a bound of the error of `l1`.
+ *
+ *     (max G − min G)·A_x·A_y, but at most AF + G(x_c,y_c)·A_x·A_y
+ *
+ * The largest and the least kernel over the pair are exact; G = 0 if one point lies behind the
+ * other element. The first form also bounds the error of every other constant between them, as
+ * their mean. A length, in scene lengths; symmetric. The value is above the error also with its
+ * roundings, by at most 2·10^-11 of max G·A_x·A_y. It is infinite if the elements see each
+ * other and their centres coincide.
+ *
+ * @return a static table
+ */
+HR2D_API const hr2d_oracle *hr2d_oracle_bounds(void);
+
+/**
  * Finds a built-in oracle by its name.
- * @param name  "size", "size2", "bf", "l1" or "l1-grid"
+ * @param name  "size", "size2", "bf", "l1", "l1-grid" or "bounds"
  * @return a static table, or NULL if no oracle has this name
  */
 HR2D_API const hr2d_oracle *hr2d_oracle_find(const char *name);

@@ -21,7 +21,7 @@ static const char help[] =
     "                    the best elements for an error, with its account\n"
     "  --enclose GAP     averages from below and above, GAP apart at most, by rank 0 alone\n"
     "  --order P         coefficients of each element (1), with --eps\n"
-    "  --oracle NAME     size (default), size2, bf, l1 or l1-grid\n"
+    "  --oracle NAME     size (default), size2, bf, l1, l1-grid or bounds\n"
     "  --eps E           accept links whose estimated error is <= E (0.1)\n"
     "  --variant NAME    original (default) or modified: what a refusal splits\n"
     "  --multigrid FROM:R  refine for FROM, FROM*R, ... --eps, each from the last\n"

@@ -493,8 +493,8 @@ class Scene:
         epsilon
             A link is accepted if the oracle estimates its error as at most ε; 0.1 by default.
         oracle
-            A name ("size", "size2", "bf", "l1", "l1-grid"), an Oracle, or a function that takes
-            a Batch and returns an array.
+            A name ("size", "size2", "bf", "l1", "l1-grid", "bounds"), an Oracle, or a function
+            that takes a Batch and returns an array.
         policy
             A name ("original", "modified") or a Policy.
         order

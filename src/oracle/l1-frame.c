@@ -36,6 +36,18 @@ static hr2di_vector sum_of(hr2di_vector p, hr2di_vector q) {
   return r;
 }
 
+static double extent(const hr2d_segment *s) {
+  return fabs(s->b.x - s->a.x) + fabs(s->b.y - s->a.y);
+}
+
+int hr2di_l1_in_order(const hr2d_segment *i, const hr2d_segment *j) {
+  const double p[] = {extent(j), i->a.x, i->a.y, i->b.x, i->b.y};
+  const double q[] = {extent(i), j->a.x, j->a.y, j->b.x, j->b.y};
+  for (int k = 0; k < 5; k++)
+    if (p[k] != q[k]) return p[k] < q[k];
+  return 1;
+}
+
 static void clip(hr2di_l1_side *s, double half) {
   s->low = -half;
   s->high = half;

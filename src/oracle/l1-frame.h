@@ -54,6 +54,11 @@ static inline double hr2di_l1_cubic(double p, double q) {
   return p * (2 + p) + q * (1 + p) * (1 + p);
 }
 
+/* Whether j is the shorter segment and so can be y: its ends then bound t for most directions,
+   while bounds that come from s cancel.  For segments of the same extent any order will do that
+   does not depend on the order of the arguments. */
+int hr2di_l1_in_order(const hr2d_segment *i, const hr2d_segment *j);
+
 /* Makes the frame with the line of the centres as origin.  Returns 1; or 0 if Gc is 0 or the
    centres coincide, and then only the distance is set. */
 int hr2di_l1_frame_init(const hr2d_segment *i, const hr2d_segment *j, hr2di_l1_frame *f);

@@ -262,27 +262,12 @@ static double integrate(pieces *p, const hr2d_segment *i, const hr2d_segment *j,
   return factor * total;
 }
 
-static double extent(const hr2d_segment *s) {
-  return fabs(s->b.x - s->a.x) + fabs(s->b.y - s->a.y);
-}
-
-/* Whether j is the shorter segment and so can be y: its ends then bound t for most directions,
-   while bounds that come from s cancel.  For segments of the same extent any order will do that
-   does not depend on the order of the arguments. */
-static int in_order(const hr2d_segment *i, const hr2d_segment *j) {
-  const double p[] = {extent(j), i->a.x, i->a.y, i->b.x, i->b.y};
-  const double q[] = {extent(i), j->a.x, j->a.y, j->b.x, j->b.y};
-  for (int k = 0; k < 5; k++)
-    if (p[k] != q[k]) return p[k] < q[k];
-  return 1;
-}
-
 static double value_of(const hr2d_segment *i, const hr2d_segment *j, double epsilon) {
   pieces p;
   hr2di_l1_frame *f = p.frame;
   p.count = 0;
   p.sum = p.error = 0;
-  if (!in_order(i, j)) {
+  if (!hr2di_l1_in_order(i, j)) {
     const hr2d_segment *other = i;
     i = j;
     j = other;

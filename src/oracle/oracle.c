@@ -150,8 +150,9 @@ const hr2d_oracle *hr2d_oracle_bf(void) {
 
 const hr2d_oracle *hr2d_oracle_find(const char *name) {
   if (!name) return NULL;
-  const hr2d_oracle *const known[] = {&oracle_size, &oracle_size2, &oracle_bf, hr2d_oracle_l1(),
-                                      hr2d_oracle_l1_grid()};
+  const hr2d_oracle *const known[] = {
+      &oracle_size,     &oracle_size2,         &oracle_bf,
+      hr2d_oracle_l1(), hr2d_oracle_l1_grid(), hr2d_oracle_bounds()};
   for (size_t k = 0; k < sizeof known / sizeof *known; k++)
     if (strcmp(known[k]->name, name) == 0) return known[k];
   return NULL;

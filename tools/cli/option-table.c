@@ -132,7 +132,7 @@ static const option_entry table[] = {
    .help = {{FIELD, "interpolate nodes of a grid within T of the range"}}},
 
   {"oracle", "NAME", GROUP_METHOD, VALUE(oracle, oracle),
-   .help = {{SOLVE | STUDY | PAIR, "size (default), size2, bf, l1 or l1-grid"}},
+   .help = {{SOLVE | STUDY | PAIR, "size (default), size2, bf, l1, l1-grid or bounds"}},
    .rules = NOT_WITH_TARGET},
   {"eps", "E", GROUP_METHOD, VALUE(positive, epsilon),
    .help = {{SOLVE | FIELD, "accept links whose estimated error is <= E (0.1)"}},

@@ -148,7 +148,7 @@ static void add_name(char *list, size_t size, const char *name) {
 }
 
 int value_oracle(const char *option, char *text, value_range range, void *value) {
-  static const char *const known[] = {"size", "size2", "bf", "l1", "l1-grid"};
+  static const char *const known[] = {"size", "size2", "bf", "l1", "l1-grid", "bounds"};
   const hr2d_oracle **oracle = value;
   char list[64] = "";
   (void)range;
@@ -205,7 +205,7 @@ int value_methods(const char *option, char *text, value_range range, void *value
     const size_t size = strcspn(word, ",");
     const size_t m = find_name(name_of_method, METHOD_COUNT, word, size);
     if (m == METHOD_COUNT) {
-      char list[128] = "";
+      char list[160] = "";
       for (size_t k = 0; k < METHOD_COUNT; k++) add_name(list, sizeof list, name_of_method[k]);
       return complain_usage("--%s: '%.*s' is none of %s", option, (int)size, word, list);
     }

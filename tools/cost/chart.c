@@ -38,13 +38,13 @@ typedef struct chart {
 
 /* The paper's oracles, orders from light to dark, the automatic methods, the baseline. */
 static const char *const colours[METHOD_COUNT] = {
-    [METHOD_SIZE] = "#d95f02",    [METHOD_SIZE2] = "#f0a850",
-    [METHOD_BF] = "#a6761d",      [METHOD_L1] = "#e7298a",
-    [METHOD_L1_GRID] = "#f4a6cf", [METHOD_MULTIGRID] = "#8c2d04",
-    [METHOD_ORDER_2] = "#a6cee3", [METHOD_ORDER_4] = "#6baed6",
-    [METHOD_ORDER_8] = "#3182bd", [METHOD_ORDER_16] = "#08519c",
-    [METHOD_AUTO] = "#006d2c",    [METHOD_AUTO_SOLVE] = "#66c2a4",
-    [METHOD_FACTORS] = "#737373"};
+    [METHOD_SIZE] = "#d95f02",       [METHOD_SIZE2] = "#f0a850",
+    [METHOD_BF] = "#a6761d",         [METHOD_L1] = "#e7298a",
+    [METHOD_L1_GRID] = "#f4a6cf",    [METHOD_BOUNDS] = "#54278f",
+    [METHOD_MULTIGRID] = "#8c2d04",  [METHOD_ORDER_2] = "#a6cee3",
+    [METHOD_ORDER_4] = "#6baed6",    [METHOD_ORDER_8] = "#3182bd",
+    [METHOD_ORDER_16] = "#08519c",   [METHOD_AUTO] = "#006d2c",
+    [METHOD_AUTO_SOLVE] = "#66c2a4", [METHOD_FACTORS] = "#737373"};
 
 /* An error below that of the reference is drawn as that of the reference. */
 static double decade_of_error(const chart *d, const cost_row *row) {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The methods in the order of `method`.  At the first ε whole patches are linked.  Ratios halve
    elements, or for the higher orders nearly so: at a given distance the estimate of size2 falls
-   like A² and the L¹ error like A³. */
+   like A², the L¹ error and its bound like A³. */
 #include <gsl/gsl_math.h>
 
 #include "cost/cost.h"
@@ -12,6 +12,7 @@ static const cost_method methods[] = {
     {METHOD_BF, "epsilon", hr2d_oracle_bf, 1, 4, 0.5, cost_progressive},
     {METHOD_L1, "epsilon", hr2d_oracle_l1, 1, 0, 0.125, cost_single},
     {METHOD_L1_GRID, "epsilon", hr2d_oracle_l1_grid, 1, 0, 0.125, cost_single},
+    {METHOD_BOUNDS, "epsilon", hr2d_oracle_bounds, 1, 0, 0.125, cost_single},
     {METHOD_MULTIGRID, "epsilon", hr2d_oracle_size, 1, 16, 0.5, cost_progressive},
     {METHOD_ORDER_2, "epsilon", hr2d_oracle_size, 2, 16, M_SQRT1_2, cost_single},
     {METHOD_ORDER_4, "epsilon", hr2d_oracle_size, 4, 16, M_SQRT1_2, cost_single},

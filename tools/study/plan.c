@@ -13,8 +13,8 @@ typedef struct range {
 } range;
 
 /* The default sequences take N through about six doublings.  Where max(A)/r reaches ε, its
-   square reaches ε²; estimates of bf are smaller.  The L¹ error is a length; at a given
-   distance it falls like A³. */
+   square reaches ε²; estimates of bf are smaller.  The L¹ error and its bound are lengths; at a
+   given distance they fall like A³. */
 static void choose_usual(const hr2d_oracle *oracle, const hr2d_scene *scene, double *from,
                          double *ratio) {
   *from = 1;
@@ -24,7 +24,7 @@ static void choose_usual(const hr2d_oracle *oracle, const hr2d_scene *scene, dou
   } else if (oracle == hr2d_oracle_bf()) {
     *from = 0.25;
     *ratio = 256;
-  } else if (!strncmp(oracle->name, "l1", 2)) {
+  } else if (!strncmp(oracle->name, "l1", 2) || oracle == hr2d_oracle_bounds()) {
     *from = scene_longest_patch(scene) / 64;
     *ratio = 64 * 64 * 64;
   }
