@@ -232,7 +232,7 @@ $(comparison orth-near "unset key")
 $(comparison orth-far "unset key")
 END
 
-all_methods=size,size2,bf,l1,l1-grid,multigrid,order-2,order-4,order-8,order-16,auto,auto-solve,factors
+all_methods=size,size2,bf,l1,l1-grid,bounds,multigrid,order-2,order-4,order-8,order-16,auto,auto-solve,factors
 few_methods=size,multigrid,order-4,auto,auto-solve,factors
 # cost NAME SCENE [METHODS]: seconds and links against error, with the rows; for each method a row of
 # cost-table.md: of the runs that come to an error the quickest, its seconds and links
@@ -258,6 +258,31 @@ cost() {
               else printf " |"
             print "" } }' "$out/cost-$1.csv" >>"$out/cost-table.md"
 }
+# exponents NAME SCENE: the powers of L in 1/error, into a column of exponents.md
+names=
+exponents() {
+  names="$names $1"
+  [ -s "$data/exponents-$1.txt" ] || "$hr2d" cost "$2" --exponents >"$data/exponents-$1.txt"
+}
+# exponent_table: a row for each oracle, variant, order and closure, a column for each scene
+exponent_table() {
+  for name in $names; do sed "s/^/$name /" "$data/exponents-$name.txt"; done | awk -v names="$names" '
+    BEGIN { scenes = split(names, scene, " ") }
+    $2 ~ /^(size|size2|bf|l1|bounds)$/ && $4 ~ /^[0-9]+$/ {
+      row = $2 " | " $3 " | " $4 " | " $5
+      if (!(row in known)) { known[row] = 1; order[++rows] = row }
+      if (/error\^-/) { sub(/.*\^-/, "", $8)
+                       cell[row, $1] = sprintf("%.2f ± %.2f", $8, ($11 - $9) / 2) } }
+    END { printf "| oracle | variant | order | closure |"
+          for (k = 1; k <= scenes; k++) printf " %s |", scene[k]
+          printf "\n|---|---|---|---|"
+          for (k = 1; k <= scenes; k++) printf "---|"
+          print ""
+          for (m = 1; m <= rows; m++) {
+            printf "| %s |", order[m]
+            for (k = 1; k <= scenes; k++) printf " %s |", cell[order[m], scene[k]]
+            print "" } }' >"$out/exponents.md"
+}
 {
   echo "| scene | method | 1e-2 | 1e-3 | 1e-4 | 1e-6 | 1e-9 | 1e-12 |"
   echo "|---|---|---|---|---|---|---|---|"
@@ -270,3 +295,11 @@ cost square-room "$scenes/square-room.geojson"
 cost screened-room "$screened"
 cost boxes-3 "$crowded/boxes-3.geojson"
 cost fibres-30 "$crowded/fibres-30.geojson" "$few_methods"
+exponents par-near "$scenes/par-near.geojson"
+exponents par-far "$scenes/par-far.geojson"
+exponents orth-near "$scenes/orth-near.geojson"
+exponents corner "$scenes/corner.geojson"
+exponents square-room "$scenes/square-room.geojson"
+exponents screened-room "$screened"
+exponents boxes-3 "$crowded/boxes-3.geojson"
+exponent_table

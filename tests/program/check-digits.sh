@@ -349,7 +349,9 @@ succeeds cost "$narrow" --methods size,order-4,auto,factors --max-seconds 6 --cs
   --json "$work/c.json" --quiet
 check "quiet cost" [ ! -s "$work/out" ]
 check "CSV of costs" [ "$(head -n 1 "$work/c.csv")" = \
-  "method,parameter,order,elements,links,bytes,seconds,error" ]
+  "method,parameter,order,elements,links,bytes,seconds,error,variant,closure" ]
+check "methods with links have a variant and a closure" awk -F, 'NR > 1 && \
+  ($9 != "") + ($10 != "") != ($1 ~ /^(auto|factors)$/ ? 0 : 2) { bad = 1 } END { exit bad }' "$work/c.csv"
 for key in scene threads predictions reference rows fits status; do
   check "cost has the key $key" grep -q "^  \"$key\": " "$work/c.json"
 done
@@ -379,6 +381,42 @@ sed -n '/"fits"/,$p' "$work/c.json" >"$work/fits"
 check "links of size: $(slope size)" between "$(slope size)" 0.9 1.1
 check "factors of equal pieces: $(slope factors)" between "$(slope factors)" 0.9 1.1
 check "links of order 4: $(slope order-4)" between "$(slope order-4)" 0.1 0.4
+# Exponents, with the interval of Student's t by the textbook's formulas; the normal distribution
+# would make it 1.96 standard errors.
+succeeds cost "$far" --exponents --max-level 5 --csv "$work/c.csv" --json "$work/c.json"
+kinds='(size|size2|bf|l1|bounds) +(original|modified) +[124] +(on|off) '
+check "60 variants" [ "$(grep -cE "^$kinds" "$work/out")" = 60 ]
+check "size2 is size with the square of epsilon" [ \
+  "$(awk -F, '$1 == "size" { print $3, $4, $5, $8, $9, $10 }' "$work/c.csv" | cksum)" = \
+  "$(awk -F, '$1 == "size2" { print $3, $4, $5, $8, $9, $10 }' "$work/c.csv" | cksum)" ]
+awk -F, '$1 == "size" && $3 == 2 && $9 == "original" && $10 == "on" && $8 < 1 {
+    x[n] = -log($8) / log(10); y[n] = log($5) / log(10)
+    if (!n || x[n] < min) min = x[n]; if (!n || x[n] > max) max = x[n]; n++ }
+  END { split("12.706 4.303 3.182 2.776 2.571 2.447 2.365 2.306 2.262 2.228 2.201 2.179", t, " ")
+    for (k = 0; k < n; k++) if (x[k] >= (min + max) / 2) { m++; sx += x[k]; sy += y[k] }
+    sx /= m; sy /= m
+    for (k = 0; k < n; k++) if (x[k] >= (min + max) / 2) {
+      xx += (x[k] - sx) ^ 2; xy += (x[k] - sx) * (y[k] - sy); yy += (y[k] - sy) ^ 2 }
+    error = sqrt((yy - xy * xy / xx) / (m - 2) / xx)
+    printf "slope=%.12e range=%.12e normal=%.12e\n", xy / xx, t[m - 2] * error, 1.96 * error
+  }' "$work/c.csv" >"$work/line"
+fitted() { # fitted KEY: of size, original, closure on, order 2
+  sed -n '/"fits"/,$p' "$work/c.json" | tr -d ' \n' | tr '}' '\n' |
+    grep '"method":"size","variant":"original","closure":"on","order":2,' |
+    sed "s/.*\"$1\":\([-0-9.e]*\).*/\1/"
+}
+eval "$(cat "$work/line")"
+# shellcheck disable=SC2154 # what the line sets
+check "an exponent by the textbook: $(cat "$work/line")" near "$(fitted links_slope)" "$slope" 1e-9
+# shellcheck disable=SC2154
+check "its interval: $(fitted links_range)" near "$(fitted links_range)" "$range" 1e-3
+# shellcheck disable=SC2154
+check "which is not the normal one" eval '! near "$(fitted links_range)" "$normal" 1e-3'
+check "order 2: the root of the links" between "$(fitted links_slope)" 0.4 0.6
+for option in "--plot $work/x.svg" "--methods size" "--max-seconds 1" --no-closure --predict; do
+  # shellcheck disable=SC2086
+  usage "--exponents and ${option%% *} exclude each other" cost "$far" --exponents $option
+done
 succeeds cost "$scenes/screened-room.geojson" --methods order-2,auto-solve,multigrid --max-seconds 2
 check "a table" [ "$(grep -c '^order-2 \|^auto-solve \|^multigrid ' "$work/out")" -gt 15 ]
 check "its reference" grep -q '^reference  error at most [0-9.e-]*: p = ' "$work/out"

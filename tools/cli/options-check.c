@@ -70,6 +70,9 @@ static int check_target(const options *o, const given_options *given) {
 
 static int check_predict(const options *o, const given_options *given) {
   const char *measured = first_given(given, NOT_WITH_PREDICT);
+  const char *chosen = first_given(given, NOT_WITH_EXPONENTS);
+  if (o->exponents && chosen)
+    return complain_usage("--exponents and --%s exclude each other", chosen);
   return o->predict && measured
              ? complain_usage("--predict and --%s exclude each other", measured)
              : 0;

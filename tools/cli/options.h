@@ -104,7 +104,7 @@ typedef struct options {
   double most_seconds;   /* of `cost` */
   unsigned methods;      /* of `cost`, bit 1 << m for each method m */
   against_list against;
-  int predict;
+  int predict, exponents;
   double from, to; /* of a study; 0: not given */
   unsigned steps, max_level;
   unsigned threads;                 /* 0: all processors */

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* `hr2d cost`: a reference first, then each method for as long as its share of time lasts. */
+#include <math.h>
 #include <stdlib.h>
 
 #include "cli/commands.h"
@@ -7,11 +8,6 @@
 #include "cost/cost.h"
 #include "output/clock.h"
 #include "output/complain.h"
-
-/* Whether --methods has a method. */
-static int is_wanted(const cost *c, const cost_method *m) {
-  return c->options->methods >> m->id & 1;
-}
 
 /* A row that is cut off is not missed, unless it is the first one. */
 static int tell_late(const cost *c, const cost_method *m, size_t first) {
@@ -31,7 +27,8 @@ static int run_method(cost *c, const cost_method *m) {
   c->line.deadline = clock_seconds() + c->share;
   const hr2d_status status = m->run(c, m);
   progress_clear(&c->line);
-  if (!c->quiet) cost_print_rows(c, first);
+  if (!c->quiet && m->most_links) cost_print_exponent(c, m);
+  if (!c->quiet && !m->most_links) cost_print_rows(c, first);
   if (status == HR2D_STOPPED && c->line.late) return tell_late(c, m, first);
   if (status == HR2D_STOPPED) return complain_call(c->options->scene, "", status);
   return status ? complain(c->options->scene, "%s: %s", cost_method_name(m),
@@ -41,15 +38,12 @@ static int run_method(cost *c, const cost_method *m) {
 
 /* If a method fails, the others still run. */
 static int run_methods(cost *c) {
-  unsigned wanted = 0;
   int status = 0;
-  const cost_method *m;
-  for (size_t k = 0; (m = cost_method_at(k)); k++) wanted += (unsigned)is_wanted(c, m);
-  c->share = c->options->most_seconds / wanted;
-  c->line.steps = wanted;
-  for (size_t k = 0; (m = cost_method_at(k)) && status != EXIT_INTERRUPTED; k++) {
-    if (!is_wanted(c, m)) continue;
-    const int code = run_method(c, m);
+  c->share =
+      c->options->exponents ? INFINITY : c->options->most_seconds / (double)c->method_count;
+  c->line.steps = (unsigned)c->method_count;
+  for (size_t k = 0; k < c->method_count && status != EXIT_INTERRUPTED; k++) {
+    const int code = run_method(c, &c->methods[k]);
     if (code) status = code;
     c->line.step++;
   }
@@ -61,7 +55,7 @@ static int report(const cost *c) {
   const options *o = c->options;
   int status = 0;
   progress_end();
-  if (!c->quiet && !o->predict) cost_print_fits(c);
+  if (!c->quiet && !o->predict && !o->exponents) cost_print_fits(c);
   if (o->csv) status = cost_write_csv(c);
   if (o->json && !status) status = cost_write_json(c);
   if (o->plot && !status) status = cost_draw(c);
@@ -69,7 +63,7 @@ static int report(const cost *c) {
 }
 
 static int measure(cost *c) {
-  int status = cost_predict(c);
+  int status = c->options->exponents ? 0 : cost_predict(c);
   if (!status && !c->options->predict) status = cost_make_reference(c);
   if (status) return status;
   if (!c->quiet) cost_print_head(c);
@@ -84,6 +78,7 @@ int cost_command(const options *o) {
   if (!status) status = scene_load(o, o->force, &scene, &c.cuts);
   if (status) return status;
   c.scene = scene;
+  cost_choose_methods(&c);
   progress_start(&c.line, o->quiet);
   status = measure(&c);
   free(c.rows);

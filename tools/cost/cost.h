@@ -10,7 +10,7 @@
 #include "cli/options.h"
 #include "output/progress.h"
 
-enum { COST_PREDICTIONS = 4 };
+enum { COST_PREDICTIONS = 4, COST_MOST_METHODS = 64 };
 
 /* The limit of memory of one row. */
 #define COST_MOST_BYTES ((uint64_t)2 << 30)
@@ -25,6 +25,9 @@ typedef struct cost_method {
   double first, ratio; /* of ε; a first one of 0 is the length of the longest patch */
   /* Adds rows until they take too long. */
   hr2d_status (*run)(struct cost *c, const struct cost_method *m);
+  const hr2d_policy *(*policy)(void); /* NULL: the original variant */
+  int is_open;                        /* without the closure */
+  uint64_t most_links; /* these end the rows, whose time does not matter; 0: time ends them */
 } cost_method;
 
 typedef struct cost_row {
@@ -44,8 +47,10 @@ typedef struct cost {
   double *average;        /* patches × bands: average B of the reference */
   hr2d_account reference; /* the account of the reference */
   hr2d_prediction prediction[COST_PREDICTIONS];
-  int predictions; /* how many of them there are */
-  cost_row *rows;  /* method after method */
+  int predictions;                        /* how many of them there are */
+  cost_method methods[COST_MOST_METHODS]; /* those that run, in this order */
+  size_t method_count;
+  cost_row *rows; /* method after method */
   size_t count, capacity;
   double share;      /* seconds that each method may take */
   char message[256]; /* why the last method ended early; "" if it did not */
@@ -66,12 +71,16 @@ int cost_predict(cost *c);
 /* The target errors of `prediction`. */
 double cost_prediction_target(int k);
 
-/* methods.c: the k-th method, or NULL behind the last. */
-const cost_method *cost_method_at(size_t k);
+/* methods.c: the methods that the options ask for. */
+void cost_choose_methods(cost *c);
 
 static inline const char *cost_method_name(const cost_method *m) {
   return name_of_method[m->id];
 }
+
+/* The variant and the closure of a method with links of an oracle, otherwise "". */
+const char *cost_method_variant(const cost_method *m);
+const char *cost_method_closure(const cost *c, const cost_method *m);
 
 /* rows.c: the error of the reference; smaller errors of the methods mean nothing. */
 double cost_floor(const cost *c);
@@ -94,6 +103,7 @@ hr2d_status cost_factors(cost *c, const cost_method *m);
 
 typedef struct cost_fit {
   double slope;   /* of the logarithm of the quantity on log 1/error */
+  double range;   /* half of its interval of 95 % by Student's t */
   double digit;   /* how much of the quantity each digit takes */
   int is_digital; /* the quantity grows like the digits: exponentially better than any slope */
 } cost_fit;
@@ -106,6 +116,7 @@ int cost_fit_rows(const cost *c, const cost_method *m, against quantity, cost_fi
 void cost_print_head(const cost *c);
 void cost_print_rows(const cost *c, size_t first);
 void cost_print_fits(const cost *c);
+void cost_print_exponent(const cost *c, const cost_method *m);
 
 /* files.c: both return 0 or the exit status. */
 int cost_write_csv(const cost *c);

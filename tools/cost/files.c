@@ -10,13 +10,15 @@ int cost_write_csv(const cost *c) {
   output out;
   const int status = output_open(&out, c->options->csv);
   if (status) return status;
-  fputs("method,parameter,order,elements,links,bytes,seconds,error\n", out.stream);
+  fputs("method,parameter,order,elements,links,bytes,seconds,error,variant,closure\n",
+        out.stream);
   for (size_t k = 0; k < c->count; k++) {
     const cost_row *row = &c->rows[k];
-    fprintf(out.stream, "%s,%.17g,%u,%llu,%llu,%llu,%.17g,%.17g\n",
+    fprintf(out.stream, "%s,%.17g,%u,%llu,%llu,%llu,%.17g,%.17g,%s,%s\n",
             cost_method_name(row->method), row->parameter, row->order,
             (unsigned long long)row->elements, (unsigned long long)row->links,
-            (unsigned long long)row->bytes, row->seconds, row->error);
+            (unsigned long long)row->bytes, row->seconds, row->error,
+            cost_method_variant(row->method), cost_method_closure(c, row->method));
   }
   return output_close(&out, 0);
 }
@@ -47,9 +49,16 @@ static json_t *reference_entry(const hr2d_account *a) {
   return entry;
 }
 
-static json_t *row_entry(const cost_row *row) {
+/* null, if the method has no links of an oracle. */
+static void put_variant(json_t **entry, const cost *c, const cost_method *m) {
+  json_put(entry, "method", json_text(cost_method_name(m)));
+  json_put(entry, "variant", m->oracle ? json_text(cost_method_variant(m)) : json_null());
+  json_put(entry, "closure", m->oracle ? json_text(cost_method_closure(c, m)) : json_null());
+}
+
+static json_t *row_entry(const cost *c, const cost_row *row) {
   json_t *entry = json_object();
-  json_put(&entry, "method", json_text(cost_method_name(row->method)));
+  put_variant(&entry, c, row->method);
   json_put(&entry, row->method->parameter, json_number(row->parameter));
   json_put(&entry, "order", json_count(row->order));
   json_put(&entry, "elements", json_count(row->elements));
@@ -66,19 +75,21 @@ static json_t *fit_entry(const cost *c, const cost_method *m) {
   if (cost_fit_rows(c, m, AGAINST_SECONDS, &time) || cost_fit_rows(c, m, AGAINST_LINKS, &links))
     return json_null();
   json_t *entry = json_object();
-  json_put(&entry, "method", json_text(cost_method_name(m)));
+  put_variant(&entry, c, m);
+  json_put(&entry, "order", m->oracle ? json_count(m->order) : json_null());
   json_put(&entry, time.is_digital ? "seconds_per_digit" : "seconds_slope",
            json_number(time.is_digital ? time.digit : time.slope));
   json_put(&entry, time.is_digital ? "links_per_digit" : "links_slope",
            json_number(time.is_digital ? links.digit : links.slope));
+  if (!time.is_digital) json_put(&entry, "seconds_range", json_number(time.range));
+  if (!time.is_digital) json_put(&entry, "links_range", json_number(links.range));
   return entry;
 }
 
 static json_t *fits(const cost *c) {
   json_t *list = json_array();
-  const cost_method *m;
-  for (size_t k = 0; (m = cost_method_at(k)); k++) {
-    json_t *entry = fit_entry(c, m);
+  for (size_t k = 0; k < c->method_count; k++) {
+    json_t *entry = fit_entry(c, &c->methods[k]);
     if (json_is_null(entry))
       json_decref(entry);
     else
@@ -90,7 +101,7 @@ static json_t *fits(const cost *c) {
 int cost_write_json(const cost *c) {
   json_t *root = json_object(), *predictions = json_array(), *rows = json_array();
   for (int k = 0; k < c->predictions; k++) json_push(&predictions, prediction_entry(c, k));
-  for (size_t k = 0; k < c->count; k++) json_push(&rows, row_entry(&c->rows[k]));
+  for (size_t k = 0; k < c->count; k++) json_push(&rows, row_entry(c, &c->rows[k]));
   json_put(&root, "scene", json_text(c->options->scene));
   json_put(&root, "cuts", json_count(c->cuts));
   json_put(&root, "threads", json_count(c->options->threads));

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Least squares.  The cost of a method is a power of the error; the cost of an automatic method
    is a linear function of the digits. */
+#include <gsl/gsl_cdf.h>
 #include <gsl/gsl_fit.h>
 #include <math.h>
 
@@ -51,9 +52,11 @@ static int is_wide(const double *digits, size_t count) {
   return max - min >= 1;
 }
 
-static double line(const double *x, const double *y, size_t count) {
+/* The slope and half of its interval of 95 %, as if the deviations were independent. */
+static double line(const double *x, const double *y, size_t count, double *range) {
   double c0 = 0, c1 = 0, cov00 = 0, cov01 = 0, cov11 = 0, rest = 0;
   gsl_fit_linear(x, 1, y, 1, count, &c0, &c1, &cov00, &cov01, &cov11, &rest);
+  *range = gsl_cdf_tdist_Pinv(0.975, (double)count - 2) * sqrt(fmax(cov11, 0));
   return c1;
 }
 
@@ -63,8 +66,8 @@ int cost_fit_rows(const cost *c, const cost_method *m, against quantity, cost_fi
   fit->is_digital = !m->oracle && m->id != METHOD_FACTORS;
   if (!fit->is_digital) count = keep_fine(digits, value, count);
   if (count < LEAST || !is_wide(digits, count)) return -1;
-  fit->digit = line(digits, value, count);
+  fit->digit = line(digits, value, count, &fit->range);
   for (size_t k = 0; k < count; k++) value[k] = log10(value[k]);
-  fit->slope = line(digits, value, count);
+  fit->slope = line(digits, value, count, &fit->range);
   return isfinite(fit->slope) ? 0 : -1;
 }

@@ -28,13 +28,13 @@ static hr2d_status begin(const cost *c, const cost_method *m, trial *t) {
   hr2d_status status = hr2d_hierarchy_create(c->scene, &t->hierarchy);
   if (!status) status = hr2d_hierarchy_set_order(t->hierarchy, m->order);
   if (!status)
-    status = hr2d_linkset_create(t->hierarchy, m->oracle(), NULL, hr2d_policy_original(), NULL,
-                                 &t->links);
+    status = hr2d_linkset_create(t->hierarchy, m->oracle(), NULL,
+                                 m->policy ? m->policy() : NULL, NULL, &t->links);
   return status;
 }
 
 /* Starts from the links and the solution of the trial. */
-static hr2d_status solve(cost *c, trial *t, double epsilon) {
+static hr2d_status solve(cost *c, const cost_method *m, trial *t, double epsilon) {
   hr2d_refine_options refine = HR2D_REFINE_OPTIONS_INIT;
   hr2d_solve_options solve = HR2D_SOLVE_OPTIONS_INIT;
   hr2d_solution *next = NULL;
@@ -43,7 +43,7 @@ static hr2d_status solve(cost *c, trial *t, double epsilon) {
   refine.max_bytes = COST_MOST_BYTES;
   refine.brightness = solve.start = t->solution;
   refine.threads = solve.threads = options_threads(c->options);
-  if (c->options->no_closure) solve.closure = HR2D_CLOSURE_OFF;
+  if (c->options->no_closure || m->is_open) solve.closure = HR2D_CLOSURE_OFF;
   refine.progress = solve.progress = progress_show;
   refine.progress_ctx = solve.progress_ctx = &c->line;
   hr2d_status status = hr2d_refine(t->links, &refine);
@@ -81,6 +81,16 @@ static hr2d_status forgive(cost *c, hr2d_status status) {
   return HR2D_OK;
 }
 
+static int repeats(const cost_method *m, double seconds) {
+  return m->most_links ? 1 : pace_repeats(seconds);
+}
+
+/* Whether the next row would mean nothing, or has too many links. */
+static int is_last(const cost *c, const cost_row *row) {
+  const uint64_t most = row->method->most_links;
+  return row->error < cost_floor(c) || (most && row->links > most);
+}
+
 /* The shortest of several runs, if one is too short to be timed. */
 static hr2d_status time_single(cost *c, const cost_method *m, double epsilon, cost_row *row) {
   double best = INFINITY;
@@ -88,9 +98,9 @@ static hr2d_status time_single(cost *c, const cost_method *m, double epsilon, co
     trial t;
     const double start = clock_seconds();
     hr2d_status status = begin(c, m, &t);
-    if (!status) status = solve(c, &t, epsilon);
+    if (!status) status = solve(c, m, &t, epsilon);
     const double time = clock_seconds() - start;
-    if (!run) runs = pace_repeats(time);
+    if (!run) runs = repeats(m, time);
     if (!status) best = fmin(best, time);
     if (!status) *row = make_row(c, m, &t, epsilon, best);
     end(&t);
@@ -117,7 +127,7 @@ hr2d_status cost_single(cost *c, const cost_method *m) {
     pace_note(&p, row.seconds, clock_seconds() - start);
     if (!repeats_last(c, &row)) status = cost_add(c, &row);
     if (status) return status;
-    if (row.error < cost_floor(c)) break;
+    if (is_last(c, &row)) break;
   }
   return HR2D_OK;
 }
@@ -139,14 +149,14 @@ static hr2d_status pass(cost *c, const cost_method *m, size_t first, pace *p) {
   hr2d_status status = begin(c, m, &t);
   for (size_t at = first; !status && at < first + MOST_STEPS; at++, epsilon *= m->ratio) {
     if (timing ? at == last || pace_repeats(c->rows[at].seconds) == 1 : !pace_allows(p)) break;
-    status = solve(c, &t, epsilon);
+    status = solve(c, m, &t, epsilon);
     if (status) break;
     const double once = clock_seconds() - start;
     total += once;
     const cost_row row = make_row(c, m, &t, epsilon, total);
     status = note_row(c, at, &row);
     if (!timing) pace_note(p, once, once);
-    if (!timing && row.error < cost_floor(c)) break;
+    if (!timing && is_last(c, &row)) break;
     start = clock_seconds();
   }
   end(&t);
@@ -165,7 +175,7 @@ hr2d_status cost_progressive(cost *c, const cost_method *m) {
   const size_t first = c->count;
   pace p = pace_start(c->share);
   hr2d_status status = HR2D_OK;
-  for (int k = 0; k < pace_repeats(0) && !status; k++) status = pass(c, m, first, &p);
+  for (int k = 0; k < repeats(m, 0) && !status; k++) status = pass(c, m, first, &p);
   drop_repeats(c, first);
   return status;
 }

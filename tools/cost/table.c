@@ -39,7 +39,7 @@ static void print_predictions(const cost *c) {
 void cost_print_head(const cost *c) {
   const hr2d_account *a = &c->reference;
   scene_print(c->options, 11, c->cuts);
-  print_predictions(c);
+  if (!c->options->exponents) print_predictions(c);
   if (c->options->predict) {
     print_prediction_table(c);
     return;
@@ -47,8 +47,12 @@ void cost_print_head(const cost *c) {
   printf("reference  error at most %.1e: p = %u, N = %llu, L = %llu, %.3f seconds\n",
          a->average.bound, a->order, (unsigned long long)a->elements,
          (unsigned long long)a->links, a->seconds);
-  printf("\n%-10s %10s %10s %12s %13s %11s %10s\n", "method", "parameter", "N", "L", "bytes",
-         "seconds", "error");
+  if (c->options->exponents)
+    printf("\n%-8s %-10s %5s %-8s %6s %17s  %s\n", "oracle", "variant", "order", "closure",
+           "most L", "links", "interval of 95 %");
+  else
+    printf("\n%-10s %10s %10s %12s %13s %11s %10s\n", "method", "parameter", "N", "L", "bytes",
+           "seconds", "error");
   fflush(stdout);
 }
 
@@ -77,12 +81,25 @@ static void print_fit(const cost *c, const cost_method *m) {
     printf("%-10s %s and %.3g links for each digit\n", cost_method_name(m),
            say(time.digit, text, sizeof text), links.digit);
   else
-    printf("%-10s seconds ~ error^-%.2f, links ~ error^-%.2f\n", cost_method_name(m),
-           time.slope, links.slope);
+    printf("%-10s seconds ~ error^-%.2f ± %.2f, links ~ error^-%.2f ± %.2f\n",
+           cost_method_name(m), time.slope, time.range, links.slope, links.range);
+}
+
+/* What a variant of the algorithm has in the place of rows. */
+void cost_print_exponent(const cost *c, const cost_method *m) {
+  cost_fit links;
+  printf("%-8s %-10s %5u %-8s", cost_method_name(m), cost_method_variant(m), m->order,
+         cost_method_closure(c, m));
+  if (cost_fit_rows(c, m, AGAINST_LINKS, &links))
+    puts("  less than a decade of errors");
+  else
+    printf(" %6llu  ~ error^-%.3f  %.3f to %.3f\n",
+           (unsigned long long)c->rows[c->count - 1].links, links.slope,
+           links.slope - links.range, links.slope + links.range);
+  fflush(stdout);
 }
 
 void cost_print_fits(const cost *c) {
-  const cost_method *m;
   puts("");
-  for (size_t k = 0; (m = cost_method_at(k)); k++) print_fit(c, m);
+  for (size_t k = 0; k < c->method_count; k++) print_fit(c, &c->methods[k]);
 }
