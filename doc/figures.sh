@@ -28,6 +28,14 @@ draw() {
   sed 's/\(\.[0-9][0-9]\)[0-9]*/\1/g' "$data/$name.svg" >"$out/$name.svg"
 }
 
+# tile NAME SCENE OPTIONS...: the links of a scene as tiles
+tile() {
+  name=$1
+  scene=$2
+  shift 2
+  "$hr2d" solve "$scene" --quiet --no-error --tiles "$out/$name.png" "$@"
+}
+
 # sweep SCENE ORACLE VARIANT FROM TO: rows without seconds, which differ each time, and
 # a line of fits.csv, at its end the range of L/N² for N ≥ 250
 sweep() {
@@ -176,6 +184,10 @@ power() {
 # What a point sees, for occlusion.md.
 "$hr2d" solve "$scenes/partition.geojson" --eps 1 --quiet \
   --draw "$out/beams.png" --beams-of window:0.5
+
+# The rectangle of theorem.md, and the square of a room with shadows.
+tile tiles "$scenes/par-near.geojson" --eps 0.25 --variant modified
+tile tiles-shadows "$screened" --eps 0.25 --variant modified
 
 # Figures 1 to 4: the paper's analysis, with its oracle and its modification.
 draw figure-1 par-near --eps 16 --variant modified --no-fill

@@ -54,6 +54,7 @@ SOLVE_SOURCES = \
 	tools/draw/raster.c \
 	tools/draw/scale.c \
 	tools/draw/shade.c \
+	tools/draw/tiles.c \
 	tools/draw/title.c \
 	tools/draw/watch.c \
 	tools/solve/command.c \

@@ -40,7 +40,8 @@ static const char help[] =
     "  --csv FILE|-, --at PATCH:T, --draw FILE, --error, --no-error  as of hr2d solve\n"
     "  --no-fill, --contours N, --arrows, --log, --links-of PATCH:T, --link-level K,\n"
     "  --link-parents, --beams-of PATCH:T  what the picture shows, as of hr2d solve\n"
-    "  --watch FILE      a film (.png) of elements, links and light as E falls\n"
+    "  --tiles FILE      links as tiles of patch x patch, as .svg, .png or .pdf\n"
+    "  --watch FILE      a film (.png) of links, tiles and light as E falls\n"
     "  --quiet           no table, no progress\n"
     "  --help, --version\n";
 
@@ -61,7 +62,7 @@ int job_complain(const job *j, PetscErrorCode code) {
 
 static int check_options(const options *o) {
   if (o->command != SOLVE) return complain_usage("the only command is solve");
-  const int status = o->draw ? draw_check(o->draw) : o->watch ? draw_check(o->watch) : 0;
+  const int status = draw_check(o->draw ? o->draw : o->tiles ? o->tiles : o->watch);
   return status ? status : options_check_outputs(o);
 }
 

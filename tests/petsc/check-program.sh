@@ -141,6 +141,7 @@ if "$HR2D_PROGRAM" solve "$room" --eps 1 --quiet --no-error --draw "$work/try.sv
     --link-level 3 --link-parents --no-fill --draw
   draws svg "$scenes/solar-panels.geojson" --target-error 1e-2 --links-of 1:0.5 --arrows --draw
   draws png "$room" --eps 0.2 --watch
+  draws svg "$room" --eps 0.2 --tiles
   check "a picture without links differs" eval '! cmp -s "$work/one.svg" "$work/try.svg"'
 else
   check "built without cairo: $(cat "$work/errors")" [ -z "${HR2D_NEED_PETSC-}" ]

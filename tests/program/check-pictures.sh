@@ -51,6 +51,9 @@ usage "true colour excludes --log" field "$furnace" --draw a.svg --band rgb --lo
 usage "--exposure is for true colour" field "$furnace" --draw a.svg --exposure 2 --band 1
 usage "the sky has no --band" field "$furnace" --draw a.svg --quantity sky --band 1
 usage "--band: 'red' is neither a number nor all nor rgb" field "$furnace" --draw a.svg --band red
+usage "--tiles: 'a.csv' does not end in .svg, .png or .pdf" solve "$black" --tiles a.csv
+usage "--target-error and --tiles exclude each other" solve "$black" --target-error 1e-3 --tiles a.png
+usage "two outputs go to 'a.svg'" solve "$black" --draw a.svg --tiles a.svg
 usage "--watch: 'a.svg' does not end in .png" solve "$black" --watch a.svg
 usage "--target-error and --watch exclude each other" solve "$black" --target-error 1e-3 --watch a.png
 
@@ -199,9 +202,85 @@ check "a square one has not" between "$(aspect "$work/black.svg")" 0.8 1.4
 succeeds field "$black" --quiet --box 0.2,0.4,0.6,0.5 --draw "$work/part.svg"
 check "a part of the plane: $(aspect "$work/part.svg")" between "$(aspect "$work/part.svg")" 1.9 3
 
+# ---- links as tiles: each has one in the rectangle of two patches, which they fill, and two in
+# the square of more patches
+tiled() { # tiled SCENE NAME OPTIONS...
+  scene=$1
+  name=$2
+  shift 2
+  succeeds solve "$scene" --quiet --no-error "$@" --tiles "$work/$name.svg" --json "$work/$name.json"
+  check "tiles of $name are XML" is_xml "$work/$name.svg"
+}
+# tiles FILE: x y width height of each, in its place of the page; a tile has a white outline
+tiles() {
+  sed -n 's/.*fill:none;.*stroke:rgb(100%, *100%, *100%);.* d="M \(.*\) Z.*/\1/p' "$1" | tr -d 'L' |
+    awk '{ printf "%.6f %.6f %.6f %.6f\n", $1, $2, $5 - $1, $6 - $2 }'
+}
+links() {
+  sed -n 's/.*"links": \([0-9]*\).*/\1/p' "$1" | head -n 1
+}
+# covered FILE: the part of the sides of 560 points that tiles cover
+covered() {
+  awk '{ sum += $3 * $4 / 560 / 560 } END { printf "%.4f", sum }' "$1"
+}
+tiled "$scenes/par-near.geojson" rectangle --eps 0.3 --variant modified
+tiles "$work/rectangle.svg" >"$work/rectangle"
+check "as many tiles as links: $(wc -l <"$work/rectangle")" \
+  [ "$(wc -l <"$work/rectangle")" = "$(links "$work/rectangle.json")" ]
+check "they fill the rectangle: $(covered "$work/rectangle")" [ "$(covered "$work/rectangle")" = 1.0000 ]
+sed 1d "$work/rectangle" >"$work/less"
+check "one less would be seen: $(covered "$work/less")" [ "$(covered "$work/less")" != 1.0000 ]
+tiled "$block" square --eps 0.5 --max-level 4
+tiles "$work/square.svg" >"$work/square"
+check "two tiles for a link: $(wc -l <"$work/square")" \
+  [ "$(wc -l <"$work/square")" = $((2 * $(links "$work/square.json"))) ]
+# symmetric FILE: whether the square has the mirror image of each tile about the diagonal from
+# (50, 622) to (610, 62), to what is lost when a page is written
+symmetric() {
+  awk 'function far(a, b) { return a > b + 0.01 || a < b - 0.01 }
+    { x[NR] = $1; y[NR] = $2; w[NR] = $3; h[NR] = $4 }
+    END { for (i = 1; i <= NR; i++) {
+            for (k = 1; k <= NR; k++)
+              if (!far(x[k], 672 - y[i] - h[i]) && !far(y[k], 672 - x[i] - w[i]) &&
+                  !far(w[k], h[i]) && !far(h[k], w[i])) break
+            if (k > NR) exit 1 } }' "$1"
+}
+asymmetric() {
+  ! symmetric "$1"
+}
+check "the square is symmetric" symmetric "$work/square"
+sed 1d "$work/square" >"$work/less"
+check "without a tile it is not" asymmetric "$work/less"
+
+# tile NAME X Y: the colour of a point of the sides, from below
+tile() {
+  "$pixels" "$1" "$(awk -v x="$2" 'BEGIN { print int(2 * (50 + 560 * x)) }')" \
+    "$(awk -v y="$3" 'BEGIN { print int(2 * (622 - 560 * y)) }')" | tail -n 1
+}
+green() {
+  tile "$@" | cut -d ' ' -f 2
+}
+succeeds solve "$scenes/par-near.geojson" --quiet --no-error --eps 1 --tiles "$work/tiles.png"
+check "where patches face each other the kernel is large: $(tile "$work/tiles.png" 0.47 0.53)" \
+  [ "$(green "$work/tiles.png" 0.47 0.53)" -gt 150 ]
+check "at their far ends it is small: $(tile "$work/tiles.png" 0.03 0.03)" \
+  [ "$(green "$work/tiles.png" 0.03 0.03)" -lt 50 ]
+succeeds solve "$scenes/screened-room.geojson" --quiet --no-error --eps 0.2 --tiles "$work/tiles.png"
+check "a patch does not see itself" [ "$(tile "$work/tiles.png" 0.1 0.11)" = "255 255 255 255" ]
+check "shadows are white" [ "$(tile "$work/tiles.png" 0.52 0.1)" = "255 255 255 255" ]
+check "what sees each other is not" [ "$(tile "$work/tiles.png" 0.3 0.105)" != "255 255 255 255" ]
+succeeds solve "$work/dark.geojson" --quiet --no-error --tiles "$work/dark.svg"
+check "of a dark scene there are tiles, too" is_xml "$work/dark.svg"
+
 # ---- a film: its frames, and that all of its bytes are as PNG wants them
 succeeds solve "$block" --quiet --eps 4 --multigrid 32:0.5 --watch "$work/film.png"
 check "what plays no films shows the first frame" "$pixels" "$work/film.png" >"$work/size"
+tile_in_film() { # tile_in_film X Y: of the middle panel
+  "$pixels" "$work/film.png" "$(awk -v x="$1" 'BEGIN { print int(384 + 312 * x) }')" \
+    "$(awk -v y="$2" 'BEGIN { print int(396 - 312 * y) }')" | tail -n 1
+}
+check "it has tiles of links" [ "$(tile_in_film 0.3 0.1)" != "255 255 255 255" ]
+check "and of nothing else" [ "$(tile_in_film 0.1 0.1)" = "255 255 255 255" ]
 cat >"$work/film.py" <<'END'
 import struct, sys, zlib
 data = open(sys.argv[1], "rb").read()

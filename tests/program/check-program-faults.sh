@@ -78,7 +78,7 @@ said() {
 # The commands that write, with everything they can write.
 arguments() { # arguments COMMAND
   case $1 in
-  solve) echo "solve $scene --eps 0.5 --max-level 5 --no-error --at 0:0.5 --csv $new/x.csv --json $new/x.json --draw $new/x.$format --no-fill" ;;
+  solve) echo "solve $scene --eps 0.5 --max-level 5 --no-error --at 0:0.5 --csv $new/x.csv --json $new/x.json --draw $new/x.$format --no-fill --tiles $new/tiles.$format" ;;
   target) echo "solve $scene --target-error 1e-3 --json $new/x.json --csv $new/x.csv" ;;
   stages) echo "solve $scene --multigrid 1:0.5 --eps 0.25 --max-level 5 --no-error --state $new/x.state --csv $new/x.csv" ;;
   study) echo "study $scene --to 0.125 --steps 4 --csv $new/x.csv --json $new/x.json $plot" ;;

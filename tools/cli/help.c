@@ -52,10 +52,8 @@ static void print_group(const command_entry *c, option_group group) {
   for (size_t k = 0; (x = option_at(k)); k++) {
     const option_text *help = option_text_of(x, c->command);
     if (x->group != group || !help || !help->text) continue;
-    if (!lines++) {
-      puts("");
-      if (group == GROUP_METHOD && c->method_heading) fputs(c->method_heading, stdout);
-    }
+    if (!lines++)
+      fputs(group == GROUP_METHOD && c->method_heading ? c->method_heading : "\n", stdout);
     print_option(x, help->text);
   }
 }

@@ -140,6 +140,7 @@ int options_check_outputs(const options *o) {
   if (!status) status = output_check(o->vtk);
   if (!status) status = output_check(o->state);
   if (!status) status = output_check(o->draw);
+  if (!status) status = output_check(o->tiles);
   if (!status) status = output_check(o->watch);
   return status ? status : output_check(o->plot);
 }

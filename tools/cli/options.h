@@ -124,7 +124,7 @@ typedef struct options {
   unsigned link_level;
   place_list beams_of;
   int link_parents, plot_log, resume;
-  const char *json, *csv, *mtx, *elmer, *vtk, *draw, *plot,
+  const char *json, *csv, *mtx, *elmer, *vtk, *draw, *tiles, *plot,
       *watch; /* file names; NULL: not given */
 } options;
 

@@ -42,8 +42,6 @@ static void clip(const picture *p) {
 }
 
 static int draw_page(picture *p) {
-  pen_grey(p->cr, 1);
-  cairo_paint(p->cr);
   title_draw(p);
   cairo_save(p->cr);
   if (p->run->options->box.given) clip(p);
@@ -60,7 +58,6 @@ static int draw_page(picture *p) {
   if (!status) status = contours_label(p);
   if (!status) status = arrows_draw(p);
   legend_draw(p);
-  cairo_show_page(p->cr);
   return status;
 }
 
@@ -76,7 +73,7 @@ static cairo_surface_t *make_surface(const picture *p, suffix format, FILE *stre
   }
 }
 
-static int draw_file(picture *p, const char *path) {
+int draw_file(picture *p, const char *path, int (*page)(picture *p)) {
   const suffix format = suffix_of(path);
   output out;
   int status = output_open(&out, path);
@@ -84,7 +81,10 @@ static int draw_file(picture *p, const char *path) {
   cairo_surface_t *surface = make_surface(p, format, out.stream);
   p->cr = cairo_create(surface);
   if (format == SUFFIX_PNG) cairo_scale(p->cr, PIXELS_PER_POINT, PIXELS_PER_POINT);
-  status = draw_page(p);
+  pen_grey(p->cr, 1);
+  cairo_paint(p->cr);
+  status = page(p);
+  cairo_show_page(p->cr);
   cairo_status_t trouble = cairo_status(p->cr);
   cairo_destroy(p->cr);
   if (format == SUFFIX_PNG && !trouble && !status)
@@ -97,11 +97,10 @@ static int draw_file(picture *p, const char *path) {
   return output_close(&out, status);
 }
 
-/* The size of the page depends on the size of its text, which is measured on a surface. */
-static int measure(picture *p) {
+int draw_measure(picture *p, int (*layout)(picture *p)) {
   cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_A8, 1, 1);
   p->cr = cairo_create(surface);
-  const int status = layout_make(p);
+  const int status = layout(p);
   cairo_destroy(p->cr);
   cairo_surface_destroy(surface);
   return status;
@@ -112,11 +111,11 @@ int draw_run(const run *r, const char *path) {
   shade_choose(&p);
   int status = links_find(&p);
   if (!status) status = labels_choose(&p);
-  if (!status) status = measure(&p);
+  if (!status) status = draw_measure(&p, layout_make);
   if (!status) status = scale_choose(&p);
   if (!status && (p.filled || r->options->contours)) status = fill_make(&p);
   if (!status) status = contours_make(&p);
-  if (!status) status = draw_file(&p, path);
+  if (!status) status = draw_file(&p, path, draw_page);
   for (size_t k = 0; k < p.name_count; k++) free(p.name[k].text);
   free(p.strokes);
   free(p.raster.at);
@@ -130,7 +129,7 @@ int draw_run(const run *r, const char *path) {
 #else
 
 int draw_check(const char *path) {
-  return complain(path, "cannot be drawn: hr2d was built without cairo");
+  return path ? complain(path, "cannot be drawn: hr2d was built without cairo") : EXIT_DONE;
 }
 
 int draw_run(const run *r, const char *path) {

@@ -5,8 +5,8 @@
 
 #include "run/run.h"
 
-/* Whether this program can draw: it may be built without cairo.  Returns 0, or EXIT_FAILED
-   after an error message. */
+/* Whether this program can draw: it may be built without cairo.  Returns 0, also for NULL, or
+   EXIT_FAILED after an error message. */
 int draw_check(const char *path);
 
 /* Whether the scene has the bands that a picture is to show.  Returns 0, or EXIT_USAGE after an
@@ -18,8 +18,13 @@ int draw_check_scene(const options *o, const hr2d_scene *scene);
    --beams-of.  Returns 0 or the exit status. */
 int draw_run(const run *r, const char *path);
 
-/* watch.c: an animation for falling epsilon, of elements, links and light; `r` is the run with
-   --eps.  All shares call it, and the first one draws.  Returns 0 or the exit status. */
+/* tiles.c: the links as tiles of the rectangle of two patches, or of the square of all.  All
+   shares call it, and the first one draws.  Returns 0 or the exit status. */
+int draw_tiles(const run *r, const char *path);
+
+/* watch.c: an animation for falling epsilon, of elements, links, tiles and light; `r` is the
+   run with --eps.  All shares call it, and the first one draws.  Returns 0 or the exit status.
+ */
 int draw_watch(const run *r, const char *path);
 
 #endif

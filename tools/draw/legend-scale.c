@@ -51,9 +51,16 @@ static legend describe_true_colour(const picture *p) {
   return l;
 }
 
+static legend describe_kernel(void) {
+  legend l = {.heading = "mean kernel", .lines = 1};
+  snprintf(l.line[0], sizeof l.line[0], "of a link, 1/length");
+  return l;
+}
+
 static legend describe(const picture *p) {
   legend l = {.heading = p->filled ? "mean light M" : "radiosity B"};
   const size_t size = sizeof l.line[0];
+  if (p->kernel) return describe_kernel();
   if (p->rgb) return describe_true_colour(p);
   switch (p->quantity) {
   case QUANTITY_TEMPERATURE:

@@ -86,6 +86,19 @@ typedef struct region {
   double extent;   /* total length */
 } region;
 
+/* The patches along a side of the tiles, and where each begins, in element units. */
+typedef struct axis {
+  size_t first, end;
+  double *start; /* of each, and of their end */
+} axis;
+
+/* Links as tiles of a rectangle on the page. */
+typedef struct tiling {
+  const run_links *links;
+  axis columns, rows; /* one patch each, or all patches */
+  box frame;
+} tiling;
+
 enum { MAX_NAMES = 24 };
 
 /* A name, and the patch beside which it is written. */
@@ -106,6 +119,7 @@ typedef struct picture {
   int flat;          /* the legend lies below the scene */
   double band;       /* thickness of the coloured bands */
   light quantity;
+  int kernel;      /* colours are of the mean kernel of links, not of light */
   int filled;      /* with the light between the patches */
   int coloured;    /* bands show B; otherwise they are left out */
   int rgb;         /* in true colour, */
@@ -128,11 +142,19 @@ typedef struct picture {
   unsigned tree_levels;
   unsigned seen; /* bit 1 << s for each hr2d_seen s at which a drawn beam ends */
   obstacles obstacles;
+  tiling tiling;
 } picture;
 
 #define TREE_GAP 5.0 /* between a patch and the tree behind it */
 
 /* Functions that return an int return 0, or the exit status after an error message. */
+
+/* draw.c: writes a page as a whole file, or not at all. */
+int draw_file(picture *p, const char *path, int (*page)(picture *p));
+
+/* The size of a page depends on the size of its text: calls `layout` with a surface to measure
+   it on. */
+int draw_measure(picture *p, int (*layout)(picture *p));
 
 /* shade.c: which bands and quantity are shown. */
 void shade_choose(picture *p);
@@ -234,6 +256,14 @@ void neighbours_measure(picture *p);
 int neighbours_draw(picture *p);
 int neighbours_draw_parents(picture *p);
 void neighbours_draw_key(const picture *p);
+
+/* tiles.c: which patches the sides of the tiles have; their rectangle in a part of the page;
+   and the scale of colours for some links. */
+int tiles_make(picture *p);
+void tiles_place(picture *p, box room);
+int tiles_scale(picture *p, const run_links *links);
+int tiles_draw(const picture *p);
+void tiles_release(picture *p);
 
 /* title.c */
 double title_width(const picture *p);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The algorithm at work: for falling ε the elements and links of the scene, and beside them its
-   light, as frames of an animation. */
+/* The algorithm at work: for falling ε the elements and links of the scene, beside them the
+   links as tiles, and the light of the scene, as frames of an animation. */
 #include "draw/draw.h"
 #include "draw/picture.h"
 #include "output/complain.h"
@@ -15,8 +15,8 @@
 #include "output/output.h"
 
 #define PIXELS   1.0 /* in a point */
-#define WIDTH    800.0
-#define HIGHEST  400.0 /* of the scene */
+#define WIDTH    1080.0
+#define HIGHEST  400.0 /* of a panel */
 #define MARGIN   24.0
 #define TITLE    84.0
 #define FOOT     62.0
@@ -28,6 +28,11 @@
 
 enum { STAGES = 7, MOST_STAGES = 60, MOST_LINES = 1500 };
 
+/* From left to right, each in a column of its own. */
+enum { PANEL_LINKS, PANEL_TILES, PANEL_LIGHT, PANELS };
+
+#define COLUMN (WIDTH / PANELS)
+
 /* The bytes of a PNG. */
 typedef struct bytes {
   unsigned char *at;
@@ -37,7 +42,9 @@ typedef struct bytes {
 typedef struct watch {
   run_links links;  /* of the frame */
   const run *whole; /* the run with --eps, which sets the scale of colours */
-  picture page;     /* of the whole run; both panels have its scale */
+  picture page;     /* of the whole run; both scenes have its scale */
+  picture tiles;    /* likewise */
+  double high;      /* of the panels */
   apng film;
   bytes png;
 } watch;
@@ -76,22 +83,33 @@ static double at_pixel(double x) {
   return ceil(PIXELS * x) / PIXELS;
 }
 
-/* Half a page wide; the second panel begins in its middle. */
-static void place_panel(picture *p, int second) {
-  const double x = (second ? 0.5 * WIDTH : 0) + 0.5 * (0.5 * WIDTH - p->size.x * p->scale);
-  p->origin = (hr2d_point){x, TITLE + p->size.y * p->scale};
+/* Where the scene is in its panel. */
+static void place_scene(picture *p, int panel, double high) {
+  const double width = p->size.x * p->scale, height = p->size.y * p->scale;
+  const double x = panel * COLUMN + 0.5 * (COLUMN - width), y = TITLE + 0.5 * (high - height);
   const double out = 0.4 * MARGIN;
-  p->frame = (box){at_pixel(x - out), at_pixel(TITLE - out), x + p->size.x * p->scale + out,
-                   p->origin.y + out};
+  p->origin = (hr2d_point){x, y + height};
+  p->frame = (box){at_pixel(x - out), at_pixel(y - out), x + width + out, y + height + out};
 }
 
-static void set_page(picture *p) {
+/* The part of the page for a panel so high. */
+static box room_of(int panel, double high) {
+  return (box){panel * COLUMN + MARGIN, TITLE, (panel + 1) * COLUMN - MARGIN, TITLE + high};
+}
+
+/* The panels are as high as the scene and the tiles need. */
+static void set_page(watch *w) {
+  picture *p = &w->page, *t = &w->tiles;
   layout_bounds(p);
-  p->scale = fmin((0.5 * WIDTH - 2 * MARGIN) / p->size.x, HIGHEST / p->size.y);
+  p->scale = fmin((COLUMN - 2 * MARGIN) / p->size.x, HIGHEST / p->size.y);
+  tiles_place(t, room_of(PANEL_TILES, HIGHEST));
+  w->high = fmax(p->size.y * p->scale, t->tiling.frame.y1 - t->tiling.frame.y0);
+  tiles_place(t, room_of(PANEL_TILES, w->high));
   p->width = WIDTH;
-  p->height = ceil(TITLE + p->size.y * p->scale + 0.5 * MARGIN + FOOT);
-  p->flat = 1;
-  place_panel(p, 1);
+  t->width = (PANEL_TILES + 1) * COLUMN;
+  p->height = t->height = ceil(TITLE + w->high + 0.5 * MARGIN + FOOT);
+  p->flat = t->flat = 1;
+  place_scene(p, PANEL_LIGHT, w->high);
 }
 
 static uint64_t count_links(const run *r) {
@@ -106,7 +124,7 @@ static void draw_links(const picture *p, const run_links *links) {
   pen_colour(p->cr, (colour){1 - ink * (1 - c.r), 1 - ink * (1 - c.g), 1 - ink * (1 - c.b)});
   cairo_set_antialias(p->cr, CAIRO_ANTIALIAS_NONE);
   cairo_set_line_width(p->cr, 1 / PIXELS);
-  for (size_t k = 0; k < links->count; k++) {
+  for (size_t k = 0; count <= MOST_LINES && k < links->count; k++) {
     const hr2d_point a = layout_point(p, elements[links->items[k].near].centre);
     const hr2d_point b = layout_point(p, elements[links->items[k].far].centre);
     cairo_move_to(p->cr, a.x, a.y);
@@ -129,17 +147,19 @@ static void write_head(const picture *p, double epsilon) {
   snprintf(text, sizeof text, "%llu elements and %llu links", (unsigned long long)n.elements,
            (unsigned long long)count_links(p->run));
   pen_write(p->cr, MARGIN, 58, text);
-  pen_write(p->cr, 0.5 * WIDTH + MARGIN, 58, "the light that they give");
+  pen_write(p->cr, PANEL_TILES * COLUMN + MARGIN, 58, "the links as tiles");
+  pen_write(p->cr, PANEL_LIGHT * COLUMN + MARGIN, 58, "the light that they give");
 }
 
 /* Room for the scene at its place on the page; of the light alone the raster is made. */
-static int draw_panel(picture *p, const run_links *links, int second) {
-  place_panel(p, second);
+static int draw_scene(picture *p, const watch *w, int panel) {
+  const int lit = panel == PANEL_LIGHT;
+  place_scene(p, panel, w->high);
   int status = layout_strokes(p);
-  if (!status && second) status = raster_make(p, 1 / PIXELS, FINE, &p->raster);
-  if (!status && second) fill_draw(p);
+  if (!status && lit) status = raster_make(p, 1 / PIXELS, FINE, &p->raster);
+  if (!status && lit) fill_draw(p);
   if (!status) images_draw(p);
-  if (!status && !second) draw_links(p, links);
+  if (!status && !lit) draw_links(p, &w->links);
   if (!status) status = bands_draw(p);
   free(p->strokes);
   free(p->raster.at);
@@ -148,6 +168,15 @@ static int draw_panel(picture *p, const run_links *links, int second) {
   p->raster.at = NULL;
   p->obstacles = (obstacles){NULL, 0, 0};
   return status;
+}
+
+static int draw_tile_panel(const watch *w, const picture *p) {
+  picture t = w->tiles;
+  t.run = p->run;
+  t.cr = p->cr;
+  t.tiling.links = &w->links;
+  legend_draw_scale(&t);
+  return tiles_draw(&t);
 }
 
 static int draw_frame(watch *w, const run *r, double epsilon) {
@@ -160,8 +189,9 @@ static int draw_frame(watch *w, const run *r, double epsilon) {
   pen_grey(p.cr, 1);
   cairo_paint(p.cr);
   write_head(&p, epsilon);
-  int status = draw_panel(&p, &w->links, 0);
-  if (!status) status = draw_panel(&p, &w->links, 1);
+  int status = draw_tile_panel(w, &p);
+  if (!status) status = draw_scene(&p, w, PANEL_LINKS);
+  if (!status) status = draw_scene(&p, w, PANEL_LIGHT);
   legend_draw_scale(&p);
   w->png.size = 0;
   cairo_status_t trouble = cairo_status(p.cr);
@@ -198,7 +228,7 @@ static int solve_frame(run *r, double epsilon) {
 
 /* All shares have a part of the links; the first one draws. */
 static int add_frame(watch *w, const run *r, double epsilon, unsigned milliseconds) {
-  int status = count_links(r) <= MOST_LINES ? run_all_links(r, &w->links) : 0;
+  int status = run_all_links(r, &w->links);
   if (!status && run_is_first(r)) status = draw_frame(w, r, epsilon);
   if (!status && run_is_first(r)) apng_add(&w->film, w->png.at, w->png.size, milliseconds);
   free(w->links.items);
@@ -243,21 +273,31 @@ static int write_film(watch *w, const char *path) {
   return first ? output_close(&out, status) : status;
 }
 
-/* The place of joints and the like is measured with text, as for a picture. */
-static int start_page(picture *p, const char *path) {
+/* The place of joints and the like is measured with text, as for a picture.  Colours mean the
+   same in all frames: what they mean in the last one. */
+static int start_page(watch *w, const run_links *last, const char *path) {
+  picture *p = &w->page;
+  int status = tiles_make(&w->tiles);
+  if (!status) status = tiles_scale(&w->tiles, last);
+  if (status) return status;
   shade_choose(p);
   p->levels = LEVELS;
   p->filled = 1;
-  set_page(p);
+  set_page(w);
   if (!(isfinite(p->scale) && p->scale > 0))
     return complain(path, "the scene is too small to draw");
   return scale_choose(p);
 }
 
 int draw_watch(const run *r, const char *path) {
-  watch w = {.whole = r, .page = {.run = r}};
-  int status = run_agree(r, run_is_first(r) ? start_page(&w.page, path) : EXIT_DONE);
+  watch w = {.whole = r, .page = {.run = r}, .tiles = {.run = r}};
+  run_links last = {NULL, 0};
+  int status = run_all_links(r, &last);
+  if (!status && run_is_first(r)) status = start_page(&w, &last, path);
+  free(last.items);
+  status = run_agree(r, status);
   if (!status) status = write_film(&w, path);
+  tiles_release(&w.tiles);
   free(w.png.at);
   return status;
 }

@@ -7,7 +7,9 @@
 #include "output/complain.h"
 #include "run/run.h"
 
-/* Numbers are those of elements, which all shares have. */
+/* Of each link: its elements, whose numbers all shares have, and its exchange area. */
+enum { VALUES = 3 };
+
 typedef struct collection {
   const run *r;
   int (*wants)(void *ctx, hr2d_pair pair, run_link *link);
@@ -28,18 +30,19 @@ static int is_shown(const collection *c, hr2d_pair pair) {
   return elements[pair.first].patch < patches && elements[pair.second].patch < patches;
 }
 
-/* Those of this share that are wanted; `value` receives two numbers for each, unless it is
+/* Those of this share that are wanted; `value` receives VALUES numbers for each, unless it is
    NULL.  Returns how many there are. */
 static size_t look(const collection *c, double *value) {
   const uint64_t count = hr2d_linkset_size(c->r->links);
   size_t found = 0;
   for (uint64_t k = 0; k < count; k++) {
     run_link link;
-    const hr2d_pair pair = hr2d_linkset_get(c->r->links, k).pair;
-    if (!is_shown(c, pair) || !c->wants(c->ctx, pair, &link)) continue;
+    const hr2d_link own = hr2d_linkset_get(c->r->links, k);
+    if (!is_shown(c, own.pair) || !c->wants(c->ctx, own.pair, &link)) continue;
     if (value) {
-      value[2 * found] = link.near;
-      value[2 * found + 1] = link.far;
+      value[VALUES * found] = link.near;
+      value[VALUES * found + 1] = link.far;
+      value[VALUES * found + 2] = own.exchange_area;
     }
     found++;
   }
@@ -64,27 +67,18 @@ static hr2d_status count(collection *c) {
 static hr2d_status collect(collection *c, run_links *links) {
   hr2d_status status = count(c);
   if (status) return status;
-  double *value = calloc(2 * c->all + 1, sizeof *value);
+  double *value = calloc(VALUES * c->all + 1, sizeof *value);
   links->items = malloc((c->all + 1) * sizeof *links->items);
   const int has = value && links->items;
-  if (has) look(c, value + 2 * c->before);
-  status = add_up(c->r, has, value, 2 * c->all);
-  for (size_t k = 0; k < c->all && !status; k++)
-    links->items[k] = (run_link){(uint32_t)value[2 * k], (uint32_t)value[2 * k + 1]};
+  if (has) look(c, value + VALUES * c->before);
+  status = add_up(c->r, has, value, VALUES * c->all);
+  for (size_t k = 0; k < c->all && !status; k++) {
+    const double *of = &value[VALUES * k];
+    links->items[k] = (run_link){(uint32_t)of[0], (uint32_t)of[1], of[2]};
+  }
   links->count = status ? 0 : c->all;
   free(value);
   return status;
-}
-
-static int any(void *ctx, hr2d_pair pair, run_link *link) {
-  (void)ctx;
-  *link = (run_link){pair.first, pair.second};
-  return 1;
-}
-
-int run_all_links(const run *r, run_links *links) {
-  collection c = {.r = r, .wants = any};
-  return collect(&c, links) ? complain_memory() : 0;
 }
 
 /* The patch of the point and its leaf. */
@@ -104,42 +98,53 @@ static int holds(const point *p, uint32_t element) {
 static int serves(void *ctx, hr2d_pair pair, run_link *link) {
   const point *p = ctx;
   if (holds(p, pair.first))
-    *link = (run_link){pair.first, pair.second};
+    *link = (run_link){.near = pair.first, .far = pair.second};
   else if (holds(p, pair.second))
-    *link = (run_link){pair.second, pair.first};
+    *link = (run_link){.near = pair.second, .far = pair.first};
   else
     return 0;
   return 1;
 }
 
-/* Where a link stands among others, whatever the numbers of elements are: by the patch of its
-   far element, its place there, and levels. */
-typedef struct placed {
-  run_link link;
+/* Where an element is, whatever its number. */
+typedef struct place_of {
   uint32_t patch;
   double start;
-  unsigned far, near;
+  unsigned level;
+} place_of;
+
+/* Where a link stands among others. */
+typedef struct placed {
+  run_link link;
+  place_of far, near;
 } placed;
 
-static placed locate(const hr2d_hierarchy *h, run_link link) {
-  const hr2d_element *element = hr2d_hierarchy_elements(h), *far = &element[link.far];
-  const hr2d_point root = element[far->patch].a;
-  return (placed){link, far->patch, hypot(far->a.x - root.x, far->a.y - root.y),
-                  hr2d_element_level(h, link.far), hr2d_element_level(h, link.near)};
+static place_of locate(const hr2d_hierarchy *h, uint32_t number) {
+  const hr2d_element *element = hr2d_hierarchy_elements(h), *e = &element[number];
+  const hr2d_point root = element[e->patch].a;
+  return (place_of){e->patch, hypot(e->a.x - root.x, e->a.y - root.y),
+                    hr2d_element_level(h, number)};
+}
+
+static int compare(const place_of *a, const place_of *b) {
+  if (a->patch != b->patch) return a->patch < b->patch ? -1 : 1;
+  if (a->start != b->start) return a->start < b->start ? -1 : 1;
+  return (a->level > b->level) - (a->level < b->level);
 }
 
 static int by_place(const void *left, const void *right) {
   const placed *a = left, *b = right;
-  if (a->patch != b->patch) return a->patch < b->patch ? -1 : 1;
-  if (a->start != b->start) return a->start < b->start ? -1 : 1;
-  if (a->far != b->far) return a->far < b->far ? -1 : 1;
-  return (a->near > b->near) - (a->near < b->near);
+  const int far = compare(&a->far, &b->far);
+  return far ? far : compare(&a->near, &b->near);
 }
 
 static int sort(const hr2d_hierarchy *h, const run_links *links) {
   placed *order = malloc((links->count + 1) * sizeof *order);
   if (!order) return complain_memory();
-  for (size_t k = 0; k < links->count; k++) order[k] = locate(h, links->items[k]);
+  for (size_t k = 0; k < links->count; k++) {
+    const run_link link = links->items[k];
+    order[k] = (placed){link, locate(h, link.far), locate(h, link.near)};
+  }
   qsort(order, links->count, sizeof *order, by_place);
   for (size_t k = 0; k < links->count; k++) links->items[k] = order[k].link;
   free(order);
@@ -155,4 +160,16 @@ int run_point_links(run *r) {
   collection c = {.r = r, .wants = serves, .ctx = &p};
   const int status = collect(&c, &r->point_links) ? complain_memory() : 0;
   return status ? status : sort(r->hierarchy, &r->point_links);
+}
+
+static int any(void *ctx, hr2d_pair pair, run_link *link) {
+  (void)ctx;
+  *link = (run_link){.near = pair.first, .far = pair.second};
+  return 1;
+}
+
+int run_all_links(const run *r, run_links *links) {
+  collection c = {.r = r, .wants = any};
+  const int status = collect(&c, links) ? complain_memory() : 0;
+  return status ? status : sort(r->hierarchy, links);
 }

@@ -22,6 +22,7 @@ typedef struct run_shares {
 /* A link, from one of its elements to the other. */
 typedef struct run_link {
   uint32_t near, far;
+  double exchange_area;
 } run_link;
 
 typedef struct run_links {
@@ -76,12 +77,12 @@ static inline int run_is_first(const run *r) {
 /* The largest of the exit statuses of all shares, which all call it. */
 int run_agree(const run *r, int status);
 
-/* all-links.c: all links of all shares but those of images, in any order; all shares call it,
-   and release the items.  Returns 0 or the exit status. */
+/* all-links.c: all links of all shares but those of images, in an order that does not depend on
+   the number of shares; all shares call it, and release the items.  Returns 0 or the exit
+   status. */
 int run_all_links(const run *r, run_links *links);
 
-/* The links that serve the point of --links-of, if there is one, in an order that does not
-   depend on the number of shares; likewise. */
+/* The links that serve the point of --links-of, if there is one; likewise. */
 int run_point_links(run *r);
 
 /* target.c: solves to the target error, or as well as the budget allows; otherwise like

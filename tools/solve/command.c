@@ -61,6 +61,10 @@ static int report(run *r) {
   const double total = clock_seconds() - r->start;
   int status = run_agree(r, run_point_links(r));
   if (!status && first) status = write_outputs(r, total);
+  if (o->tiles) {
+    status = run_agree(r, status);
+    if (!status) status = draw_tiles(r, o->tiles);
+  }
   if (o->watch) {
     status = run_agree(r, status);
     if (!status) status = draw_watch(r, o->watch);
@@ -122,7 +126,7 @@ int solve_command(const options *o) {
   const double start = clock_seconds();
   hr2d_scene *scene = NULL;
   size_t cuts = 0;
-  int status = o->draw ? draw_check(o->draw) : o->watch ? draw_check(o->watch) : 0;
+  int status = draw_check(o->draw ? o->draw : o->tiles ? o->tiles : o->watch);
   if (!status) status = options_check_outputs(o);
   if (!status) status = scene_load(o, o->force, &scene, &cuts);
   if (status) return status;
