@@ -11,12 +11,13 @@ from typing import (Any, Dict, Iterator, List, Mapping, NamedTuple, Optional, Se
 
 import numpy as np
 
-from . import _draw, _solve
+from . import _draw, _links, _solve
 from ._arrays import doubles, frozen, view, writable
 from ._calls import POLL, Call, ProgressFunction, keep_exception, owned, thread_count
 from ._errors import SceneError, StateError
 from ._geojson import outside_of, text_of
 from ._hr2d import ffi, lib
+from ._links import Links, Study
 from ._operator import Operator
 from ._solution import Solution
 from ._strategy import OracleLike, PolicyLike
@@ -540,6 +541,40 @@ class Scene:
                   "threads": thread_count(threads)}
         self.commit()
         return Operator(self, target, limits, points, progress)
+
+    # The paper's experiment
+
+    def refine(self, *, epsilon: Optional[float] = None, oracle: OracleLike = None,
+               policy: PolicyLike = None, max_level: Optional[int] = None,
+               ordered: bool = False, max_elements: int = 0, max_links: int = 0,
+               max_bytes: int = 0, threads: Any = 1,
+               progress: Optional[ProgressFunction] = None) -> Links:
+        """The links of the paper's algorithm, and no solution.
+
+        The arguments are those of solve(); with `ordered` every ordered pair of patches is
+        projected, as the paper words it, and links carry one direction.
+        """
+        paper = {"epsilon": epsilon, "oracle": oracle, "policy": policy, "max_level": max_level}
+        limits = {"max_elements": max_elements, "max_links": max_links, "max_bytes": max_bytes,
+                  "threads": thread_count(threads)}
+        self.commit()
+        return _links.refine(self, paper, limits, ordered, progress)
+
+    def study(self, epsilon: Union[Sequence[float], np.ndarray], *, oracle: OracleLike = None,
+              policy: PolicyLike = None, max_level: Optional[int] = None,
+              ordered: bool = False, max_elements: int = 0, max_links: int = 0,
+              max_bytes: int = 0, threads: Any = 1,
+              progress: Optional[ProgressFunction] = None) -> Study:
+        """Elements N and links L for each ε: the dots of the paper's Figures 7 and 8.
+
+        Each ε begins with the whole patches, and no link is stored.  The arguments are those
+        of refine(); a limit that is reached is an error.
+        """
+        paper = {"epsilon": None, "oracle": oracle, "policy": policy, "max_level": max_level}
+        limits = {"max_elements": max_elements, "max_links": max_links, "max_bytes": max_bytes,
+                  "threads": thread_count(threads)}
+        self.commit()
+        return _links.study(self, epsilon, paper, limits, ordered, progress)
 
     # Pictures
 

@@ -72,7 +72,7 @@ def to_target(scene: Any, target: Dict[str, Any], limits: Dict[str, int], points
     return solution
 
 
-def _refine_options(paper: Dict[str, Any], limits: Dict[str, int]) -> Any:
+def refine_options(paper: Dict[str, Any], limits: Dict[str, int]) -> Any:
     """In C 0 stands for a default, and named constants for the number 0."""
     raw = ffi.new("hr2d_refine_options *")
     lib.hr2d_refine_options_init(raw, ffi.sizeof("hr2d_refine_options"))
@@ -95,25 +95,31 @@ def _solve_options(paper: Dict[str, Any], limits: Dict[str, int]) -> Any:
     return raw
 
 
+def empty_links(scene: Any, paper: Dict[str, Any], call: Call) -> Any:
+    """A set without links, with the oracle, the policy and the order of its elements."""
+    hierarchy, links = ffi.new("hr2d_hierarchy **"), ffi.new("hr2d_linkset **")
+    call.check(lib.hr2d_hierarchy_create(scene._raw, hierarchy))
+    tree = owned(hierarchy[0], lib.hr2d_hierarchy_destroy, scene._raw)
+    order = paper.get("order")
+    if order is not None and lib.hr2d_hierarchy_set_order(tree, order):
+        highest = int(constant("HR2D_MAX_ORDER"))
+        raise error_of(lib.HR2D_EINVAL, f"order is a number from 1 to {highest}")
+    oracle, oracle_ctx, oracle_keep = oracle_table(paper["oracle"])
+    policy, policy_ctx, policy_keep = policy_table(paper["policy"])
+    call.check(lib.hr2d_linkset_create(tree, oracle, oracle_ctx, policy, policy_ctx, links))
+    return owned(links[0], lib.hr2d_linkset_destroy, tree, oracle_keep, policy_keep)
+
+
 def by_links(scene: Any, paper: Dict[str, Any], limits: Dict[str, int], points: bool,
              progress: Optional[ProgressFunction]) -> Solution:
-    hierarchy = ffi.new("hr2d_hierarchy **")
-    links, pointer = ffi.new("hr2d_linkset **"), ffi.new("hr2d_solution **")
+    pointer = ffi.new("hr2d_solution **")
     with Call(progress) as call:
-        call.check(lib.hr2d_hierarchy_create(scene._raw, hierarchy))
-        tree = owned(hierarchy[0], lib.hr2d_hierarchy_destroy, scene._raw)
-        if paper["order"] is not None and lib.hr2d_hierarchy_set_order(tree, paper["order"]):
-            highest = int(constant("HR2D_MAX_ORDER"))
-            raise error_of(lib.HR2D_EINVAL, f"order is a number from 1 to {highest}")
-        oracle, oracle_ctx, oracle_keep = oracle_table(paper["oracle"])
-        policy, policy_ctx, policy_keep = policy_table(paper["policy"])
-        call.check(lib.hr2d_linkset_create(tree, oracle, oracle_ctx, policy, policy_ctx, links))
-        pairs = owned(links[0], lib.hr2d_linkset_destroy, tree, oracle_keep, policy_keep)
+        pairs = empty_links(scene, paper, call)
 
         def message() -> Any:
             return lib.hr2d_linkset_message(pairs)
 
-        call.check(lib.hr2d_refine(pairs, _refine_options(paper, limits)), message)
+        call.check(lib.hr2d_refine(pairs, refine_options(paper, limits)), message)
         call.check(lib.hr2d_solve(pairs, _solve_options(paper, limits), pointer), message)
     return Solution(scene, owned(pointer[0], lib.hr2d_solution_destroy, pairs), None,
                     points=points)

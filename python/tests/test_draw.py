@@ -80,7 +80,7 @@ def test_the_readme_runs():
     pytest.importorskip("matplotlib")
     text = (Path(__file__).parent.parent / "README.md").read_text(encoding="utf-8")
     blocks, names = re.findall(r"```python\n(.*?)```", text, re.S), {}
-    assert len(blocks) == 3
+    assert len(blocks) == 4
     for block in blocks:
         exec(compile(block, "README.md", "exec"), names)
     assert names["F"].shape == (7, 7) and names["s"].B.shape == (7, 1)
