@@ -47,6 +47,38 @@ static test_links refined(hr2d_scene *scene, const hr2d_oracle *oracle, int modi
   return t;
 }
 
+/* What was found of a number, to be printed; nothing may have been. */
+typedef struct range {
+  double low, high;
+} range;
+
+static const range nothing = {HUGE_VAL, -HUGE_VAL};
+
+static void note(double value, range *r) {
+  r->low = fmin(r->low, value);
+  r->high = fmax(r->high, value);
+}
+
+typedef struct text {
+  char of[48];
+} text;
+
+static text describe(range r) {
+  text t = {"none"};
+  if (r.low <= r.high) snprintf(t.of, sizeof t.of, "from %.4g to %.4g", r.low, r.high);
+  return t;
+}
+
+START_TEST(a_range_of_nothing_says_so) {
+  range r = nothing;
+  ck_assert_str_eq(describe(r).of, "none");
+  note(2, &r);
+  ck_assert_str_eq(describe(r).of, "from 2 to 2");
+  note(-0.5, &r);
+  ck_assert_str_eq(describe(r).of, "from -0.5 to 2");
+}
+END_TEST
+
 /* --- Theorem 1 --- */
 
 enum { OCTAVES = 6, MOST_PHASES = 8, MOST_ROWS = 11 * MOST_PHASES };
@@ -287,7 +319,7 @@ END_TEST
    N = 2(2 N_leaf − 1), N_leaf = l/A_leaf gives 4g/ε − 2 ≤ N < 8g/ε − 2. */
 START_TEST(elements_are_g_over_epsilon) {
   unsigned long state = test_seed();
-  double min = HUGE_VAL, max = 0, low = HUGE_VAL, high = 0;
+  range tried = nothing, found = nothing;
   for (int k = 0; k < (int)test_rounds(400, 20); k++) {
     const double g = pow(2, 10 * test_random(&state)), d = pow(10, 6 * test_random(&state) - 3);
     const double epsilon = g * pow(2, -11 * test_random(&state));
@@ -305,14 +337,12 @@ START_TEST(elements_are_g_over_epsilon) {
     for (uint64_t e = 0; e < c.elements; e++)
       if (!element[e].child)
         ck_assert(0.5 * limit < element[e].length && element[e].length <= limit);
-    min = fmin(min, n * epsilon / g);
-    max = fmax(max, n * epsilon / g);
-    low = fmin(low, g / epsilon);
-    high = fmax(high, g / epsilon);
+    note(n * epsilon / g, &found);
+    note(g / epsilon, &tried);
     test_free_links(&t);
   }
-  printf("g/ε from %.3g to %.3g: N ε/g from %.3f to %.3f\n", low, high, min, max);
-  ck_assert_double_gt(high / low, test_multiplier() < 0.5 ? 100 : 1000);
+  printf("g/ε %s: N ε/g %s\n", describe(tried).of, describe(found).of);
+  ck_assert_double_gt(tried.high / tried.low, test_multiplier() < 0.5 ? 100 : 1000);
   /* Where ε ≥ g nothing is refused, and N stays 2. */
   ck_assert_uint_eq(count(facing(1, 1, 4), NULL, 1, 0.25).elements, 2);
   ck_assert_uint_eq(count(facing(1, 1, 4), NULL, 1, 0.249).elements, 6);
@@ -324,7 +354,7 @@ END_TEST
    the power of 2 in (g/2, g]; links between facing pieces, of length l' in [d,2d), have
    A² ≤ ε²r² ≤ ε²(d² + l'²) and cover l'² each: L ≥ K/(2ε²) ≥ g/(4ε²) > N/(32ε). */
 START_TEST(links_are_elements_over_epsilon) {
-  double min = HUGE_VAL, max = 0;
+  range found = nothing;
   int pairs = 0;
   for (double g = 1; g <= 1024; g *= 1.7)
     for (double epsilon = 0.99; epsilon > 1. / 1024; epsilon *= 0.83) {
@@ -332,11 +362,10 @@ START_TEST(links_are_elements_over_epsilon) {
       const hr2d_refine_counts c = count(facing(g, g, 1), NULL, 1, epsilon);
       const double ratio = (double)c.links * epsilon / (double)c.elements;
       ck_assert(ratio > 1. / 32 && ratio <= 2 + 1.5 * epsilon);
-      min = fmin(min, ratio);
-      max = fmax(max, ratio);
+      note(ratio, &found);
       pairs++;
     }
-  printf("%d pairs of g and ε: L ε/N from %.3f to %.3f\n", pairs, min, max);
+  printf("%d pairs of g and ε: L ε/N %s\n", pairs, describe(found).of);
   ck_assert_int_gt(pairs, 100);
   /* Patches far apart, g ≪ 1: all leaves see each other at one distance, L = N_leaf²,
      so that L ε/N falls like g.  The second equation needs a g bounded from below. */
@@ -357,20 +386,15 @@ typedef struct region {
 #define NARROW 0.1
 
 typedef struct extremes {
-  double r_low, r_high;         /* r ε/A */
-  double delta_low, delta_high; /* (r − r_parent)/A */
-  double side_low, side_high;   /* D ε/A on one side of an element above the leaves */
-  double all_low, all_high;     /* and on both sides */
-  double leaf_low, leaf_high;   /* of a leaf */
+  range r;     /* r ε/A */
+  range delta; /* (r − r_parent)/A */
+  range side;  /* D ε/A on one side of an element above the leaves */
+  range all;   /* and on both sides */
+  range leaf;  /* of a leaf */
 } extremes;
 
 static double distance(const hr2d_element *i, const hr2d_element *j) {
   return hypot(i->centre.x - j->centre.x, i->centre.y - j->centre.y);
-}
-
-static void note(double value, double *low, double *high) {
-  *low = fmin(*low, value);
-  *high = fmax(*high, value);
 }
 
 /* One link; 2⁻⁵⁰ covers the rounding of r. */
@@ -380,14 +404,14 @@ static void check_link(const hr2d_hierarchy *h, hr2d_pair pair, double epsilon, 
   const double a = i->length, r = distance(i, j), slack = 1 + 0x1p-50;
   ck_assert_double_eq(a, j->length);
   ck_assert_double_le(a / epsilon, r * slack); /* (4) */
-  if (epsilon < NARROW) note(r * epsilon / a, &x->r_low, &x->r_high);
+  if (epsilon < NARROW) note(r * epsilon / a, &x->r);
   if (hr2d_element_level(h, pair.first) == 0) return;
   const double parent = distance(&element[hr2d_element_parent(h, pair.first)],
                                  &element[hr2d_element_parent(h, pair.second)]);
   ck_assert_double_lt(parent, 2 * a / epsilon * slack);
   ck_assert_double_le(fabs(r - parent), a * slack);      /* δ in [−1,1] */
   ck_assert_double_lt(r, (2 / epsilon + 1) * a * slack); /* (5) */
-  if (epsilon < NARROW) note((r - parent) / a, &x->delta_low, &x->delta_high);
+  if (epsilon < NARROW) note((r - parent) / a, &x->delta);
 }
 
 static void add_neighbour(region *to, const hr2d_element *element,
@@ -418,11 +442,10 @@ static void check_regions(const test_links *t, const region *regions, double eps
       ck_assert_double_le(fmax(left, right), 3 / epsilon + 1);
     }
     if (epsilon >= NARROW) continue;
-    note(all * epsilon, element[e].child ? &x->all_low : &x->leaf_low,
-         element[e].child ? &x->all_high : &x->leaf_high);
+    note(all * epsilon, element[e].child ? &x->all : &x->leaf);
     if (!element[e].child) continue;
-    note(left * epsilon, &x->side_low, &x->side_high);
-    note(right * epsilon, &x->side_low, &x->side_high);
+    note(left * epsilon, &x->side);
+    note(right * epsilon, &x->side);
   }
 }
 
@@ -451,18 +474,15 @@ static void check_inequalities(double l, double d, double epsilon, extremes *x) 
 }
 
 START_TEST(every_link_obeys_the_inequalities) {
-  extremes x = {HUGE_VAL, 0, HUGE_VAL, -HUGE_VAL, HUGE_VAL, 0, HUGE_VAL, 0, HUGE_VAL, 0};
+  extremes x = {nothing, nothing, nothing, nothing, nothing};
   const double g[] = {10, 1, 3, 8, 64};
   const double finest = test_multiplier() < 0.5 ? 0.1 : 0.02;
   for (size_t k = 0; k < sizeof g / sizeof *g; k++)
     for (double epsilon = 1; epsilon > (g[k] > 10 ? 4 : 1) * finest; epsilon *= 0.77)
       check_inequalities(1, 1 / g[k], epsilon, &x);
-  printf("for ε < %g: r ε/A from %.4f to %.4f, δ from %.4f to %.4f\n", NARROW, x.r_low,
-         x.r_high, x.delta_low, x.delta_high);
-  printf(
-      "D ε/A on one side from %.3f to %.3f, on both from %.3f to %.3f, of leaves from %.3f to "
-      "%.3f\n",
-      x.side_low, x.side_high, x.all_low, x.all_high, x.leaf_low, x.leaf_high);
+  printf("for ε < %g: r ε/A %s, δ %s\n", NARROW, describe(x.r).of, describe(x.delta).of);
+  printf("D ε/A on one side %s, on both %s, of leaves %s\n", describe(x.side).of,
+         describe(x.all).of, describe(x.leaf).of);
 }
 END_TEST
 
@@ -680,6 +700,7 @@ TEST_SUITE("theorem") {
             regions_of_leaves_break_the_bounds);
   ADD_TESTS("the modified algorithm", modified_costs_less_than_twice,
             modified_costs_more_for_a_large_epsilon, modified_costs_more_for_unequal_lengths);
+  ADD_TESTS("what is printed", a_range_of_nothing_says_so);
   ADD_TESTS("oracles and multigridding", squares_change_nothing,
             multigridding_ends_where_one_step_does, multigridding_by_brightness_is_quadratic,
             every_transport_is_accounted_for_once);
