@@ -161,7 +161,7 @@ OUTSIDE = \
 	tests/adversary/check-adversary.sh \
 	tests/docs/check-docs.sh \
 	tests/program/check-cli.sh \
-	tests/program/check-help.sh \
+	tests/program/check-completion.sh tests/program/check-help.sh \
 	tests/program/check-program-faults.sh \
 	tests/program/check-digits.sh \
 	tests/program/check-field.sh \
@@ -372,7 +372,7 @@ check-valgrind:
 	TESTS='$(TAKES_LONGEST) $(filter-out $(TAKES_LONGEST) $(TOO_LONG),$(SUITES) $(REPLACING))'
 
 # Scripts about texts, names and digits, in which sanitizers have nothing to find.
-PAPERWORK = tests/docs/check-docs.sh tests/program/check-help.sh tests/program/check-digits.sh \
+PAPERWORK = tests/docs/check-docs.sh tests/program/check-completion.sh tests/program/check-help.sh tests/program/check-digits.sh \
 	tests/package/check-constants.sh tests/package/check-exports.sh \
 	tests/package/check-headers.sh tests/package/check-layers.sh \
 	tests/package/check-python.sh tests/adversary/check-adversary-controls.sh

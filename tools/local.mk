@@ -25,6 +25,7 @@ SOLVE_SOURCES = \
 	tools/cli/options.c tools/cli/options.h \
 	tools/cli/options-check.c \
 	tools/cli/scene.c tools/cli/scene.h \
+	tools/cli/suggest.c tools/cli/suggest.h \
 	tools/cli/values.c tools/cli/values.h \
 	tools/cli/warnings.c tools/cli/warnings.h \
 	tools/run/all-links.c \
@@ -107,3 +108,11 @@ tools_hr2d_SOURCES = $(SOLVE_SOURCES) \
 
 dist_man_MANS = tools/hr2d.1
 EXTRA_DIST += tools/LAYERS
+
+# What shells complete; each file asks the program.
+bashcompletiondir = $(datadir)/bash-completion/completions
+dist_bashcompletion_DATA = tools/completions/bash/hr2d
+zshcompletiondir = $(datadir)/zsh/site-functions
+dist_zshcompletion_DATA = tools/completions/_hr2d
+fishcompletiondir = $(datadir)/fish/vendor_completions.d
+dist_fishcompletion_DATA = tools/completions/hr2d.fish

@@ -32,12 +32,24 @@ usage "'info' needs a SCENE file" info
 usage "'factors' needs a SCENE file" factors
 usage "'b' is one argument too many" solve a b
 usage "'x' is one argument too many" pair x
-usage "unknown option '--frobnicate'" solve "$far" --frobnicate
 usage "unknown option '-x'" solve -x "$far"
-usage "unknown option '--max-l'" solve "$far" --max-l 3
+usage "unknown option '--max-l' (did you mean --max-level?)" solve "$far" --max-l 3
+usage "unknown option '--max-le=3' (did you mean --max-level?)" solve "$far" --max-le=3
+usage "unknown option '--target-eror' (did you mean --target-error?)" solve "$far" --target-eror 1
+usage "unknown option '--qiuet' (did you mean --quiet?)" info --qiuet "$far"
+usage "unknown option '--epsilon=1' (did you mean --eps?)" solve "$far" --epsilon=1
+usage "unknown option '--epsilom'" study "$far" --epsilom
+usage "unknown command 'slove' (did you mean solve?)" slove "$far"
+usage "unknown command 'sol' (did you mean solve?)" help sol
+usage "'x' is one argument too many" help solve x
+usage "unknown option '--frobnicate'" solve "$far" --frobnicate
+check "what is not near is not suggested" lacks 'did you mean' "$work/err"
+check "the help of the command is named" grep -q "try 'hr2d solve --help'" "$work/err"
+usage "expected a command before '-x'" -x
+check "or that of the program" grep -q "try 'hr2d --help'" "$work/err"
 usage "'--eps' lacks its argument" solve "$far" --eps
 usage "'--quiet=3' takes no argument" solve "$far" --quiet=3
-usage "'info' has no option --eps" info "$far" --eps 1
+usage "'info' has no option --eps (of solve, field)" info "$far" --eps 1
 usage "'solve' has no option --plot" solve "$far" --plot x.svg
 usage "'study' has no option --at" study "$far" --at 0:0
 usage "'factors' has no option --eps" factors "$far" --eps 1
@@ -104,13 +116,32 @@ usage "--link-parents needs --variant modified" solve "$far" --draw a.svg --link
 
 # ---- help and version
 fits_screen() {
-  awk 'length($0) > 80 { bad = 1 } END { exit bad || NR < 5 || NR > 44 }' "$work/out"
+  awk 'length($0) > 80 { bad = 1 } END { exit bad || NR < 5 || NR > 48 }' "$work/out"
 }
-for command in "" info solve study cost factors pair; do
+for command in "" info solve study cost factors field pair; do
   # shellcheck disable=SC2086
   succeeds $command --help
   check "help of '$command' fits a screen" fits_screen
 done
+same_help() {
+  hr2d "$@" | cmp -s - "$work/help"
+}
+for command in info solve study cost factors field pair; do
+  hr2d $command --help >"$work/help"
+  check "'$command -h'" same_help $command -h
+  check "'help $command'" same_help help $command
+  check "'$command --help' has an example" grep -q '^For example:$' "$work/help"
+  sed '1,/^For example:$/d; /hr2d pair/d; s/^.*hr2d //' "$work/help" >"$work/examples"
+  while read -r example; do
+    # shellcheck disable=SC2086
+    run $(echo "$example" | sed "s|room.geojson|$work/none|; s|\(--[a-z]*\) \([a-z]*\.[a-z]\)|\1 $work/\2|")
+    check "'$example' is well used" [ "$status" -eq 1 ]
+  done <"$work/examples"
+done
+hr2d --help >"$work/help"
+check "'-h'" same_help -h
+check "'help'" same_help help
+check "helps of commands differ" lacks 'For example' "$work/help"
 succeeds --version
 check "version is printed" grep -q '^hr2d [0-9][0-9]*\.[0-9][0-9]*\.[0-9]' "$work/out"
 
@@ -123,6 +154,15 @@ expect 1 "^hr2d: $far: .*3 elements" solve "$far" --max-elements 3
 for file in "$HR2D_SRCDIR"/tests/data/malformed/*.geojson; do
   expect 1 "^hr2d: $file: ." solve "$file"
 done
+
+# ---- a scene from standard input
+from_stdin() {
+  hr2d solve - --eps 0.1 --csv - --quiet <"$far" >"$work/read" &&
+    hr2d solve "$far" --eps 0.1 --csv - --quiet | cmp -s - "$work/read"
+}
+check "- is standard input" from_stdin
+expect 1 "^hr2d: /dev/stdin: ." info -
+usage "SCENE and --points cannot both be standard input" field - --points -
 
 # ---- info
 succeeds info "$data/occluded.geojson" --json "$work/info.json"

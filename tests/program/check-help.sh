@@ -19,7 +19,7 @@ check "each option is in it once" [ -z "$(uniq -d "$work/table")" ]
 takes() {
   run "$1" "--$2"
   ! grep -q 'lacks its argument' "$work/err" || run "$1" "--$2=x"
-  ! grep -q -e "has no option --$2;" -e 'unknown option' "$work/err"
+  ! grep -q -e "has no option --$2 (of" -e 'unknown option' "$work/err"
 }
 for command in $commands; do
   while read -r option; do
@@ -39,7 +39,8 @@ done <"$work/table"
 
 # ---- --help lists the options that a command takes, in two columns
 columns_are_aligned() {
-  awk '!/^  --/ && !begun { next }
+  awk '/^For example:$/ { exit }
+       !/^  --/ && !begun { next }
        { begun = 1 }
        /^$/ || /^[a-z ,]*:$/ { next }
        /^  --/ { match($0, /^  --[^ ]+( [^ ]+)? +/) }

@@ -6,16 +6,19 @@
 
 static const command_entry commands[] = {
     {"info", INFO, ON_SCENE, "patches, lengths, which effects the scene calls for",
-     "Patches, total length, bands, bounding box and the effects the scene calls for.\n", NULL},
+     "Patches, total length, bands, bounding box and the effects the scene calls for.\n", NULL,
+     "  hr2d info room.geojson\n"},
 
     {"solve", SOLVE, ON_SCENE, "radiosity of every patch, tables and pictures",
      "Refines, solves and reports radiosity and irradiance of every patch.\n",
-     "or, instead of a target or a budget:\n"},
+     "or, instead of a target or a budget:\n",
+     "  hr2d solve room.geojson --target-error 1e-6 --draw room.svg\n"
+     "  hr2d solve room.geojson --oracle l1 --eps 1e-4 --json -\n"},
 
     {"study", STUDY, ON_SCENE, "links L against elements N over a sequence of epsilon",
      "Counts elements N and links L over a geometric sequence of epsilon and fits\n"
      "L = a + b N + c N^2 by least squares.\n",
-     NULL},
+     NULL, "  hr2d study room.geojson --oracle l1 --steps 60 --plot study.svg\n"},
 
     {"cost", COST, ON_SCENE, "error against time and links, for several methods",
      "What each digit of average B costs: error against elements N, links L, bytes and\n"
@@ -31,19 +34,21 @@ static const command_entry commands[] = {
      "                                  and without its account of the error\n"
      "  factors                         view factors of equal pieces, and conjugate\n"
      "                                  gradients\n",
-     NULL},
+     NULL, "  hr2d cost room.geojson --max-seconds 60 --plot cost.svg\n"},
 
     {"factors", FACTORS, ON_SCENE, "view factors between all patches",
      "View factors F_ij between all patches: the part of the light of patch i that\n"
      "arrives at patch j, around what stands between them.  Prints for each i their\n"
      "sum over j; in a closed scene it is 1.\n",
-     NULL},
+     NULL, "  hr2d factors room.geojson --csv factors.csv\n"},
 
     {"field", FIELD, ON_SCENE, "light at points between the patches",
      "Solves, and looks from points between the patches: mean radiosity over all\n"
      "directions, net flux, and the part of all directions that sees the sky.  Points\n"
      "that no light can reach, outside of rooms or within obstacles, have no numbers.\n",
-     NULL},
+     NULL,
+     "  hr2d field room.geojson --target-error 1e-4 --draw light.png --contours 8\n"
+     "  echo 1.5 2 | hr2d field room.geojson --points - --csv -\n"},
 
     {"pair", PAIR, "< PAIRS", "[--oracle NAME] < PAIRS", "exchange areas of pairs of segments",
      "Each line of standard input holds 8 numbers, decimal or hexadecimal,\n"
@@ -53,7 +58,7 @@ static const command_entry commands[] = {
      "AF = A_i F_ij = A_j F_ji, the two view factors, and the oracle's estimate,\n"
      "nan where the segments cross or overlap.  Blank lines and\n"
      "lines that start with # are skipped.\n",
-     NULL}};
+     NULL, "  echo 0 0 1 0 1 1 0 1 | hr2d pair\n"}};
 
 const command_entry *command_at(size_t k) {
   return k < sizeof commands / sizeof *commands ? &commands[k] : NULL;

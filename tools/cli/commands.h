@@ -15,6 +15,7 @@ typedef struct command_entry {
   const char *summary;
   const char *description;
   const char *method_heading; /* of its GROUP_METHOD in --help; NULL: none */
+  const char *examples;       /* lines as they are typed */
 } command_entry;
 
 /* The k-th command, or NULL behind the last. */

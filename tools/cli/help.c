@@ -27,9 +27,9 @@ static void print_general(void) {
     printf("%*s%s\n", COLUMN - width, "", c->summary);
   }
   fputs("\n"
-        "SCENE is a GeoJSON file or a .vs2 file of the program View2D.\n"
-        "'hr2d COMMAND --help' lists the options of a command, 'hr2d --version' prints\n"
-        "the version, 'man hr2d' says more.\n"
+        "SCENE is a GeoJSON file or a .vs2 file of the program View2D; - is standard\n"
+        "input.  'hr2d help COMMAND' lists the options of a command, 'hr2d --version'\n"
+        "prints the version, 'man hr2d' says more.\n"
         "\n"
         "Exit status: 0; 1 for bad input or a failed solve; 2 for bad usage;\n"
         "130 when interrupted.\n",
@@ -68,6 +68,7 @@ void help_print(int command) {
   }
   printf("Usage: hr2d %s %s\n%s", c->name, c->usage, c->description);
   for (int group = 0; group < GROUP_COUNT; group++) print_group(c, (option_group)group);
+  printf("\nFor example:\n%s", c->examples);
 }
 
 void help_print_version(void) {

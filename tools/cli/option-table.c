@@ -35,7 +35,7 @@ static const option_entry table[] = {
             {STUDY, "one row per epsilon, kept up to date during the sweep"},
             {COST, "one row per method and parameter"},
             {FACTORS, "a line of patch names, then a row of F_ij for each i"},
-            {FIELD, "x,y,band,mean,flux_x,flux_y,sky,error for each point and band"}},
+            {FIELD, "x,y,band,mean,flux_x,flux_y,sky,error by point, band"}},
    .rules = IS_OUTPUT | NOT_WITH_PREDICT},
   {"mtx", "FILE|-", GROUP_OUTPUT, VALUE(path, mtx),
    .help = {{FACTORS, "the F_ij that are not 0, as Matrix Market coordinates"}},
@@ -124,7 +124,7 @@ static const option_entry table[] = {
    .help = {{COST, "some of these, separated by commas"}},
    .rules = NOT_WITH_PREDICT | NOT_WITH_EXPONENTS},
   {"exponents", NULL, GROUP_QUESTION, VALUE(flag, exponents),
-   .help = {{COST, "powers of L in 1/error: oracles, variants, orders, closure"}}},
+   .help = {{COST, "how L grows with 1/error: oracles, variants, orders"}}},
   {"predict", NULL, GROUP_QUESTION, VALUE(flag, predict),
    .help = {{COST, "print what a target error will cost, and no more"}}, .rules = NOT_WITH_EXPONENTS},
 

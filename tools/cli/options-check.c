@@ -39,6 +39,9 @@ static int check_inputs(const options *o, const char *file, const char *name) {
 static int check_outputs(const options *o) {
   const option_entry *x, *y;
   int status = 0;
+  if (o->points && output_is_stdout(o->points) && o->scene &&
+      output_is_same("/dev/stdin", o->scene))
+    return complain_usage("SCENE and --points cannot both be standard input");
   for (size_t i = 0; (x = option_at(i)) && !status; i++) {
     const char *file = output_of(o, x);
     if (file) status = check_inputs(o, file, x->name);

@@ -86,7 +86,7 @@ typedef struct options {
   int command;
   int help, version, quiet;
   int no_closure;
-  const char *scene; /* file name; NULL for `pair` */
+  const char *scene; /* file name, /dev/stdin for -; NULL for `pair` */
   int split_crossings, strict;
   double snap;    /* a tolerance; 0: not given */
   unsigned force; /* bit 1 << e for each effect e */

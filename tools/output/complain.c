@@ -41,6 +41,12 @@ int complain(const char *where, const char *format, ...) {
   return EXIT_FAILED;
 }
 
+static const char *subject;
+
+void complain_about(const char *command) {
+  subject = command;
+}
+
 int complain_usage(const char *format, ...) {
   char line[LINE];
   va_list arguments;
@@ -48,7 +54,8 @@ int complain_usage(const char *format, ...) {
   vsnprintf(line, sizeof line, format, arguments);
   va_end(arguments);
   one_line(line);
-  fprintf(stderr, PROGRAM_NAME ": %s; try '" PROGRAM_NAME " --help'\n", line);
+  fprintf(stderr, PROGRAM_NAME ": %s; try '" PROGRAM_NAME "%s%s --help'\n", line,
+          subject ? " " : "", subject ? subject : "");
   return EXIT_USAGE;
 }
 

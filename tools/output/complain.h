@@ -18,7 +18,10 @@ void complain_silently(void);
 /* Prints "hr2d: WHERE: …" on stderr and returns EXIT_FAILED; `where` may be NULL. */
 __attribute__((format(printf, 2, 3))) int complain(const char *where, const char *format, ...);
 
-/* Prints "hr2d: …; try 'hr2d --help'" on stderr and returns EXIT_USAGE. */
+/* From now on complain_usage() names the help of this command. */
+void complain_about(const char *command);
+
+/* Prints "hr2d: …; try 'hr2d COMMAND --help'" on stderr and returns EXIT_USAGE. */
 __attribute__((format(printf, 1, 2))) int complain_usage(const char *format, ...);
 
 /* Out of memory; returns EXIT_FAILED. */

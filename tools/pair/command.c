@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/types.h>
+#include <unistd.h>
 
 #include "cli/commands.h"
 #include "output/complain.h"
@@ -80,6 +81,8 @@ int pair_command(const options *o) {
   char *line = NULL;
   size_t capacity = 0;
   int status = EXIT_DONE;
+  if (isatty(STDIN_FILENO))
+    complain(NULL, "pair reads lines ax ay bx by cx cy dx dy from the terminal, up to Ctrl-D");
   errno = 0;
   for (unsigned long long number = 1; !status; number++) {
     char where[32];

@@ -51,7 +51,7 @@ expect() {
 usage() {
   message=$1
   shift
-  expect 2 "^hr2d: $message.*; try 'hr2d --help'\$" "$@"
+  expect 2 "^hr2d: $message.*; try 'hr2d\( [a-z]*\)\{0,1\} --help'\$" "$@"
 }
 succeeds() {
   run "$@"
