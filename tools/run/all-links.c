@@ -138,7 +138,10 @@ static int by_place(const void *left, const void *right) {
   return far ? far : compare(&a->near, &b->near);
 }
 
-static int sort(const hr2d_hierarchy *h, const run_links *links) {
+/* The first share shows them. */
+static int sort(const run *r, const run_links *links) {
+  const hr2d_hierarchy *h = r->hierarchy;
+  if (!run_is_first(r)) return 0;
   placed *order = malloc((links->count + 1) * sizeof *order);
   if (!order) return complain_memory();
   for (size_t k = 0; k < links->count; k++) {
@@ -159,7 +162,7 @@ int run_point_links(run *r) {
              hr2d_hierarchy_leaf(r->hierarchy, patch, r->options->links_of.t)};
   collection c = {.r = r, .wants = serves, .ctx = &p};
   const int status = collect(&c, &r->point_links) ? complain_memory() : 0;
-  return status ? status : sort(r->hierarchy, &r->point_links);
+  return status ? status : sort(r, &r->point_links);
 }
 
 static int any(void *ctx, hr2d_pair pair, run_link *link) {
@@ -171,5 +174,5 @@ static int any(void *ctx, hr2d_pair pair, run_link *link) {
 int run_all_links(const run *r, run_links *links) {
   collection c = {.r = r, .wants = any};
   const int status = collect(&c, links) ? complain_memory() : 0;
-  return status ? status : sort(r->hierarchy, links);
+  return status ? status : sort(r, links);
 }

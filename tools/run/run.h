@@ -77,9 +77,9 @@ static inline int run_is_first(const run *r) {
 /* The largest of the exit statuses of all shares, which all call it. */
 int run_agree(const run *r, int status);
 
-/* all-links.c: all links of all shares but those of images, in an order that does not depend on
-   the number of shares; all shares call it, and release the items.  Returns 0 or the exit
-   status. */
+/* all-links.c: all links of all shares but those of images, on the first share in an order that
+   does not depend on their number; all shares call it, and release the items.  Returns 0 or the
+   exit status, which may not be the same on all. */
 int run_all_links(const run *r, run_links *links);
 
 /* The links that serve the point of --links-of, if there is one; likewise. */
