@@ -255,6 +255,11 @@ void PAGE(play_links)(const play *p, uint32_t *out, size_t count) {
   }
 }
 
+/* The exchange area of each of the first `count` links. */
+void PAGE(play_exchange_areas)(const play *p, double *out, size_t count) {
+  for (size_t k = 0; k < count; k++) *out++ = hr2d_linkset_get(links_of(p), k).exchange_area;
+}
+
 /* The mean radiosity at the nodes of a grid, nodes × bands, and the place of each node. */
 hr2d_status PAGE(play_field)(play *p, double x0, double y0, double x1, double y1,
                              size_t columns, size_t rows, double tolerance, double *mean,

@@ -45,6 +45,11 @@ export class Answer {
     return { a: [e[at], e[at + 1]], b: [e[at + 2], e[at + 3]] };
   }
 
+  length(element) {
+    const { a, b } = this.segment(element);
+    return Math.hypot(b[0] - a[0], b[1] - a[1]);
+  }
+
   /** The leaf next to a point, within a distance, or -1; of two back to back the one in front. */
   leafAt(point, within) {
     let best = -1;

@@ -183,6 +183,12 @@ export class Library {
     });
   }
 
+  /** The exchange area of each link, of as many. */
+  exchangeAreas(most) {
+    const count = Math.min(most, this.calls.play_links_count(this.play));
+    return this.numbers(count, (at) => this.calls.play_exchange_areas(this.play, at, count));
+  }
+
   /** The mean radiosity at the nodes of a grid, and the place of each. */
   field({ low, high, columns, rows, tolerance }) {
     const count = columns * rows;

@@ -17,6 +17,7 @@ import {
   showProgress,
   showStatus,
   showStudy,
+  showTiles,
   showValues,
   showWall,
 } from "./panel.js";
@@ -256,6 +257,7 @@ export class Page {
     this.path = [];
     this.solved = scene;
     this.exact = exact;
+    showTiles(this.answer, namesOf(scene).length);
     if ($("message").dataset.kind === "failure") showMessage("");
     if (!exact) performance.mark("sketch");
     if (exact) showValues(this.answer, namesOf(scene));

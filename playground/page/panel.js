@@ -2,6 +2,7 @@
 // The panel: what it shows of a scene and of an answer.
 
 import { drawChart } from "./chart.js";
+import { paintTiles } from "./tiles.js";
 
 const TICKS = 6;
 
@@ -127,6 +128,19 @@ export function showStudy(study, now) {
   $("chart-text").textContent =
     `The paper’s algorithm for ε from ${short(rows[0].epsilon)} to ${short(last.epsilon)}: ` +
     `up to N = ${whole(last.elements)} and L = ${whole(last.links)}${slope}.${ring}`;
+}
+
+/** The links as tiles; a sketch has none to show. */
+export function showTiles(answer, patches) {
+  const count = answer.exchange.length;
+  if (!count && answer.account.links) return;
+  const top = paintTiles($("tiles"), answer, patches);
+  const where = patches === 2 ? "the rectangle of two patches" : `the square of ${patches} patches`;
+  const clustered = answer.account.links > count ? " or are linked in clusters" : "";
+  $("tiles-text").textContent =
+    `${whole(count)} links as tiles of ${where}: columns and rows are elements, colours the mean ` +
+    `kernel, bright from ${short(top)} on, dark at ${short(top / 1e4)}. What is white does not ` +
+    `see each other${clustered}.`;
 }
 
 /** Fills the controls of the chosen wall, or switches them off. */

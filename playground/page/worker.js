@@ -43,6 +43,7 @@ function solution(links) {
     averages: library.averages(),
     elements: library.elements(),
     links: links ? library.links(MOST_LINKS_SHOWN) : new Uint32Array(0),
+    exchange: links ? library.exchangeAreas(MOST_LINKS_SHOWN) : new Float64Array(0),
   };
 }
 

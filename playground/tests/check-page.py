@@ -231,26 +231,81 @@ def the_paper_s_algorithm_has_the_digits_of_the_program(page):
     page.settle()
 
 
-@test
-def l_against_n_follows_epsilon(page):
-    page.example("square-room.geojson")
+def paper(page, name):
+    """The paper's algorithm for an example, with the oracle size and ε = 1/4."""
+    page.example(name)
+    for control, value in (("oracle", "size"), ("epsilon", "-2")):
+        page.browser.run(
+            "document.getElementById(arguments[0]).value = arguments[1]", control, value
+        )
     page.browser.click("input[name=method][value=epsilon]")
     page.settle()
+
+
+def slide(page, name, power):
+    """Slides ε, until the links are as many as the program has of the example."""
+    page.browser.run(
+        "const e = document.getElementById('epsilon'); e.value = arguments[0];"
+        "e.dispatchEvent(new Event('input'))",
+        power,
+    )
+    how = ["--eps", str(2.0 ** float(power)), "--no-error", "--quiet", "--json", "-"]
+    out = subprocess.run(
+        [HR2D, "solve", os.path.join(SCENES, name), *how], capture_output=True, check=True
+    )
+    links = f"{json.loads(out.stdout)['links']:,}"
+    page.browser.wait(
+        "return document.querySelectorAll('#numbers dd')[1].textContent === arguments[0]", links
+    )
+    return links
+
+
+@test
+def l_against_n_follows_epsilon(page):
+    name = "square-room.geojson"
+    paper(page, name)
+    page.browser.wait("return document.querySelectorAll('#chart .dot').length >= 10")
     rings = []
-    for power in ("0", "-3"):
-        page.browser.run(
-            "const e = document.getElementById('epsilon'); e.value = arguments[0];"
-            "e.dispatchEvent(new Event('input'))",
-            power,
-        )
-        time.sleep(0.5)
+    for power in ("0.5", "-3"):
+        slide(page, name, power)
         rings.append(
             page.browser.run("return document.querySelector('#chart .now')?.getAttribute('cx')")
         )
     assert None not in rings and float(rings[0]) < float(rings[1]), rings
-    page.browser.wait("return document.querySelectorAll('#chart .dot').length >= 10")
     page.browser.click("input[name=method][value=target]")
     page.settle()
+
+
+def is_blank(page, x, y):
+    """Whether the tiles are white around a point, in parts of the sides from below."""
+    return page.browser.run(
+        "const c = document.getElementById('tiles');"
+        "const x = arguments[0] * c.width - 3, y = (1 - arguments[1]) * c.height - 3;"
+        "return c.getContext('2d').getImageData(x, y, 6, 6).data.every((v) => v === 255)",
+        x,
+        y,
+    )
+
+
+@test
+def tiles_follow_epsilon(page):
+    name = "screened-room.geojson"
+    text = "document.getElementById('tiles-text').textContent"
+    paper(page, name)
+    for power in ("0.5", "-3"):
+        links = slide(page, name, power)
+        said = page.browser.run(f"return {text}")
+        assert said.startswith(f"{links} links as tiles of the square of 6 patches"), said
+    page.browser.run("document.getElementById('tiles').scrollIntoView()")
+    take_picture(page, "tiles")
+    assert is_blank(page, 0.1, 0.11), "a patch does not see itself"
+    assert is_blank(page, 0.52, 0.1), "a shadow"
+    assert not is_blank(page, 0.3, 0.1) and not is_blank(page, 0.1, 0.3)
+    page.browser.click("input[name=method][value=target]")
+    page.settle()
+    page.example("par-near.geojson")
+    assert not is_blank(page, 0.03, 0.97)
+    assert "rectangle" in page.browser.run(f"return {text}")
 
 
 @test
