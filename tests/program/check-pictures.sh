@@ -252,6 +252,12 @@ check "the square is symmetric" symmetric "$work/square"
 sed 1d "$work/square" >"$work/less"
 check "without a tile it is not" asymmetric "$work/less"
 
+# So many that no program would open a page of them: they are an image.
+succeeds solve "$scenes/par-near.geojson" --quiet --no-error --eps 0.015 --tiles "$work/many.svg"
+check "many tiles are XML" is_xml "$work/many.svg"
+check "they are an image" grep -q '<image' "$work/many.svg"
+check "few are not" lacks '<image' "$work/rectangle.svg"
+
 # tile NAME X Y: the colour of a point of the sides, from below
 tile() {
   "$pixels" "$1" "$(awk -v x="$2" 'BEGIN { print int(2 * (50 + 560 * x)) }')" \

@@ -11,22 +11,26 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define TITLE    62.0
-#define LEFT     50.0 /* with the names of rows */
-#define FOOT     50.0 /* with the names of columns */
-#define LEGEND   124.0
-#define LONGEST  560.0 /* of the sides */
-#define LEAST    0.1   /* of the longer side has the shorter one at least */
-#define FONT     10.0
-#define TICK     5.0 /* the ends of leaves beside the tiles */
-#define LINE     0.5 /* of white around a tile, */
-#define THINNEST 0.1 /* and no more than this part of the tile */
+#define TITLE   62.0
+#define LEFT    50.0 /* with the names of rows */
+#define FOOT    50.0 /* with the names of columns */
+#define LEGEND  124.0
+#define LONGEST 560.0 /* of the sides */
+#define LEAST   0.1   /* of the longer side has the shorter one at least */
+#define FONT    10.0
+#define TICK    5.0 /* the ends of leaves beside the tiles */
+#define LINE    0.5 /* between tiles, patches and ticks */
+#define WIDE    5.0 /* what is narrower has thinner lines */
+#define PIXELS  2.0 /* in a point, of tiles that are an image */
 
 /* The parts of the area of all tiles that may lie outside of the scale of colours: the kernel
    has no bound where patches meet.  And so many powers of ten, at most. */
 #define DARKEST   0.005
 #define BRIGHTEST 0.995
 #define DECADES   4.0
+
+/* More tiles are an image in SVG and PDF, too, whose memory and size would have no bound. */
+enum { MOST_VECTORS = 200000 };
 
 /* An interval of an axis. */
 typedef struct span {
@@ -148,12 +152,23 @@ static double page_y(const picture *p, double at) {
   return f->y1 - at / length_of(&p->tiling.rows) * (f->y1 - f->y0);
 }
 
+/* So much of an axis, in points. */
+static double on_page(const picture *p, int row, double length) {
+  return row ? page_y(p, 0) - page_y(p, length) : page_x(p, length) - page_x(p, 0);
+}
+
 static int find_tile(const picture *p, uint32_t column, uint32_t row, box *to) {
   span x, y;
   if (!find_span(p, &p->tiling.columns, column, &x)) return 0;
   if (!find_span(p, &p->tiling.rows, row, &y)) return 0;
   *to = (box){page_x(p, x.from), page_y(p, y.to), page_x(p, x.to), page_y(p, y.from)};
   return 1;
+}
+
+/* The part of the picture that lines take goes to 0 where everything is small. */
+static double line_width(double narrow) {
+  const double part = fmin(1, narrow / WIDE);
+  return LINE * part * part;
 }
 
 /* Neighbours share pixels without a gap. */
@@ -167,7 +182,7 @@ static void outline_tile(const picture *p, const run_link *link, const box *b) {
   (void)link;
   cairo_rectangle(p->cr, b->x0, b->y0, b->x1 - b->x0, b->y1 - b->y0);
   pen_grey(p->cr, 1);
-  cairo_set_line_width(p->cr, fmin(LINE, THINNEST * fmin(b->x1 - b->x0, b->y1 - b->y0)));
+  cairo_set_line_width(p->cr, line_width(fmin(b->x1 - b->x0, b->y1 - b->y0)));
   cairo_stroke(p->cr);
 }
 
@@ -208,9 +223,9 @@ static int draw_leaf(void *ctx, const piece *leaf) {
   const leaf_side *s = ctx;
   const double *start = &s->of->start[s->patch - s->of->first];
   const double end = start[0] + leaf->t1 * (start[1] - start[0]);
-  const double side = s->row ? page_y(s->p, 0) - page_y(s->p, start[1] - start[0])
-                             : page_x(s->p, start[1] - start[0]) - page_x(s->p, 0);
-  cairo_set_line_width(s->p->cr, fmin(LINE, THINNEST * (leaf->t1 - leaf->t0) * side));
+  cairo_set_line_width(
+      s->p->cr,
+      line_width(on_page(s->p, s->row, (leaf->t1 - leaf->t0) * (start[1] - start[0]))));
   draw_mark(s->p, s->row, end, TICK);
   return 0;
 }
@@ -226,13 +241,14 @@ static int draw_leaves(const picture *p, const axis *a, int row) {
   return status;
 }
 
-/* Lines between patches, as thin as narrow patches need. */
 static void draw_borders(const picture *p, const axis *a, int row) {
-  const double side =
-      row ? p->tiling.frame.y1 - p->tiling.frame.y0 : p->tiling.frame.x1 - p->tiling.frame.x0;
   pen_grey(p->cr, 0.6);
-  cairo_set_line_width(p->cr, fmin(LINE, THINNEST * side / (double)(a->end - a->first)));
-  for (size_t k = 1; k < a->end - a->first; k++) draw_mark(p, row, a->start[k], 0);
+  for (size_t k = 1; k < a->end - a->first; k++) {
+    const double *at = &a->start[k];
+    cairo_set_line_width(p->cr,
+                         line_width(on_page(p, row, fmin(at[0] - at[-1], at[1] - at[0]))));
+    draw_mark(p, row, *at, 0);
+  }
 }
 
 /* The name of each patch that has room for it. */
@@ -244,8 +260,7 @@ static void write_names(const picture *p, const axis *a, int row) {
     const double *start = &a->start[k - a->first];
     const char *name = hr2d_scene_name(p->run->scene, k);
     const double width = pen_text_width(p->cr, name);
-    const double room = row ? page_y(p, start[0]) - page_y(p, start[1])
-                            : page_x(p, start[1]) - page_x(p, start[0]);
+    const double room = on_page(p, row, start[1] - start[0]);
     const double middle = 0.5 * (start[0] + start[1]);
     if (width + 4 > room) continue;
     cairo_save(p->cr);
@@ -257,12 +272,41 @@ static void write_names(const picture *p, const axis *a, int row) {
   }
 }
 
-int tiles_draw(const picture *p) {
-  const box *f = &p->tiling.frame;
+static void draw_each(const picture *p) {
   cairo_set_antialias(p->cr, CAIRO_ANTIALIAS_NONE);
   each_tile(p, fill_tile);
   cairo_set_antialias(p->cr, CAIRO_ANTIALIAS_DEFAULT);
   each_tile(p, outline_tile);
+}
+
+static void draw_as_image(const picture *p) {
+  const box *f = &p->tiling.frame;
+  picture image = *p;
+  cairo_surface_t *surface =
+      cairo_image_surface_create(CAIRO_FORMAT_ARGB32, (int)ceil(PIXELS * (f->x1 - f->x0)),
+                                 (int)ceil(PIXELS * (f->y1 - f->y0)));
+  image.cr = cairo_create(surface);
+  cairo_scale(image.cr, PIXELS, PIXELS);
+  cairo_translate(image.cr, -f->x0, -f->y0);
+  draw_each(&image);
+  cairo_destroy(image.cr);
+  cairo_save(p->cr);
+  cairo_translate(p->cr, f->x0, f->y0);
+  cairo_scale(p->cr, 1 / PIXELS, 1 / PIXELS);
+  cairo_set_source_surface(p->cr, surface, 0, 0);
+  cairo_paint(p->cr);
+  cairo_restore(p->cr);
+  cairo_surface_destroy(surface);
+}
+
+int tiles_draw(const picture *p) {
+  const box *f = &p->tiling.frame;
+  const int pixels =
+      cairo_surface_get_type(cairo_get_target(p->cr)) == CAIRO_SURFACE_TYPE_IMAGE;
+  if (pixels || p->tiling.links->count <= MOST_VECTORS)
+    draw_each(p);
+  else
+    draw_as_image(p);
   draw_borders(p, &p->tiling.columns, 0);
   draw_borders(p, &p->tiling.rows, 1);
   int status = draw_leaves(p, &p->tiling.columns, 0);
