@@ -307,6 +307,17 @@ cost square-room "$scenes/square-room.geojson"
 cost screened-room "$screened"
 cost boxes-3 "$crowded/boxes-3.geojson"
 cost fibres-30 "$crowded/fibres-30.geojson" "$few_methods"
+
+# oracles NAME SCENE: links of four oracles against error
+oracles() {
+  "$hr2d" cost "$2" --methods size,l1,bf,bounds --max-seconds 12 --quiet --against links \
+    --plot "$out/cost-oracles-$1.svg" --csv "$out/cost-oracles-$1.csv"
+}
+oracles par-near "$scenes/par-near.geojson"
+oracles corner "$scenes/corner.geojson"
+oracles square-room "$scenes/square-room.geojson"
+oracles screened-room "$screened"
+
 exponents par-near "$scenes/par-near.geojson"
 exponents par-far "$scenes/par-far.geojson"
 exponents orth-near "$scenes/orth-near.geojson"

@@ -22,20 +22,23 @@ static size_t collect(const cost *c, const cost_method *m, against quantity, dou
   return count;
 }
 
-/* Keeps the finer half of the digits: coarse runs take as long as any run takes at least. */
+/* Keeps the finer half of the digits, a decade of error at least: coarse runs take as long as
+   any run takes at least. */
 static size_t keep_fine(double *digits, double *value, size_t count) {
-  double max = 0, min = INFINITY;
+  double max = 0, min = INFINITY, from = -INFINITY;
   size_t kept = 0;
   for (size_t k = 0; k < count; k++) {
     max = fmax(max, digits[k]);
     min = fmin(min, digits[k]);
   }
-  const double middle = 0.5 * (max + min);
-  for (size_t k = 0; k < count; k++) kept += digits[k] >= middle;
+  for (size_t k = 0; k < count; k++)
+    if (digits[k] <= max - 1) from = fmax(from, digits[k]);
+  from = fmin(from, 0.5 * (max + min));
+  for (size_t k = 0; k < count; k++) kept += digits[k] >= from;
   if (kept < LEAST) return count;
   kept = 0;
   for (size_t k = 0; k < count; k++)
-    if (digits[k] >= middle) {
+    if (digits[k] >= from) {
       digits[kept] = digits[k];
       value[kept++] = value[k];
     }
