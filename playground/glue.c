@@ -4,7 +4,10 @@
 #include <hr2d/hr2d.h>
 #include <stdlib.h>
 
-enum { FITTED = 6 }; /* rows of a study that show how L grows */
+enum {
+  FITTED = 6,      /* rows of a study that show how L grows */
+  MOST_ROUNDS = 20 /* of links by the light of the last round */
+};
 
 /* Visible to the page; the linker begins with these. */
 #define PAGE(name) __attribute__((export_name(#name))) name
@@ -154,6 +157,19 @@ hr2d_status PAGE(play_solve_to)(play *p, double error) {
   return fail(p, status, hr2d_scene_message(p->scene));
 }
 
+/* By the light of the last round, if there is one. */
+static hr2d_status refine_round(play *p, hr2d_refine_options *how, hr2d_solve_options *solve) {
+  hr2d_solution *next = NULL;
+  how->brightness = solve->start = p->solution;
+  hr2d_status status = hr2d_refine(p->links, how);
+  if (!status) status = hr2d_solve(p->links, solve, &next);
+  if (status) return status;
+  hr2d_solution_destroy(p->solution);
+  p->solution = next;
+  return HR2D_OK;
+}
+
+/* Once; by an oracle that weighs by brightness, until its light adds no link. */
 static hr2d_status refine_and_solve(play *p, const hr2d_oracle *oracle, double epsilon,
                                     unsigned levels, double max_links, double tolerance) {
   hr2d_refine_options how = HR2D_REFINE_OPTIONS_INIT;
@@ -165,8 +181,15 @@ static hr2d_status refine_and_solve(play *p, const hr2d_oracle *oracle, double e
   solve.tolerance = tolerance;
   hr2d_status status = hr2d_hierarchy_create(p->scene, &p->hierarchy);
   if (!status) status = hr2d_linkset_create(p->hierarchy, oracle, NULL, NULL, NULL, &p->links);
-  if (!status) status = hr2d_refine(p->links, &how);
-  return status ? status : hr2d_solve(p->links, &solve, &p->solution);
+  for (int round = 0; !status && round < MOST_ROUNDS; round++) {
+    const hr2d_refine_counts last = hr2d_linkset_counts(p->links);
+    status = refine_round(p, &how, &solve);
+    const hr2d_refine_counts now = hr2d_linkset_counts(p->links);
+    if (!(hr2d_linkset_oracle(p->links)->flags & HR2D_ORACLE_NEEDS_BRIGHTNESS) ||
+        (now.elements == last.elements && now.links == last.links))
+      break;
+  }
+  return status;
 }
 
 /* The paper's algorithm: an oracle by its name, and ε.  For `levels`, `max_links` and

@@ -495,7 +495,8 @@ class Scene:
             A link is accepted if the oracle estimates its error as at most ε; 0.1 by default.
         oracle
             A name ("size", "size2", "bf", "l1", "l1-grid", "bounds"), an Oracle, or a function
-            that takes a Batch and returns an array.
+            that takes a Batch and returns an array. One that needs brightness, as "bf", refines
+            and solves in rounds, each by the light of the last, until links no longer change.
         policy
             A name ("original", "modified") or a Policy.
         order

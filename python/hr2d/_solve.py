@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import warnings
-from typing import Any, Dict, Optional
+from typing import Any, Dict, Optional, Tuple
 
 from ._calls import Call, ProgressFunction, constant, owned
 from ._errors import AccuracyWarning, error_of
@@ -12,6 +12,7 @@ from ._hr2d import ffi, lib
 from ._solution import Account, Solution
 from ._strategy import oracle_table, policy_table
 
+MOST_ROUNDS = 20  # of links by the light of the last round
 NORMS = {"average": lib.HR2D_NORM_AVERAGE, "sup": lib.HR2D_NORM_SUP}
 
 
@@ -110,6 +111,15 @@ def empty_links(scene: Any, paper: Dict[str, Any], call: Call) -> Any:
     return owned(links[0], lib.hr2d_linkset_destroy, tree, oracle_keep, policy_keep)
 
 
+def _needs_brightness(pairs: Any) -> bool:
+    return bool(lib.hr2d_linkset_oracle(pairs).flags & lib.HR2D_ORACLE_NEEDS_BRIGHTNESS)
+
+
+def _size(pairs: Any) -> Tuple[int, int]:
+    counts = lib.hr2d_linkset_counts(pairs)
+    return counts.elements, counts.links
+
+
 def by_links(scene: Any, paper: Dict[str, Any], limits: Dict[str, int], points: bool,
              progress: Optional[ProgressFunction]) -> Solution:
     pointer = ffi.new("hr2d_solution **")
@@ -119,7 +129,14 @@ def by_links(scene: Any, paper: Dict[str, Any], limits: Dict[str, int], points: 
         def message() -> Any:
             return lib.hr2d_linkset_message(pairs)
 
-        call.check(lib.hr2d_refine(pairs, refine_options(paper, limits)), message)
-        call.check(lib.hr2d_solve(pairs, _solve_options(paper, limits), pointer), message)
-    return Solution(scene, owned(pointer[0], lib.hr2d_solution_destroy, pairs), None,
-                    points=points)
+        refine, solve = refine_options(paper, limits), _solve_options(paper, limits)
+        solution = ffi.NULL
+        for _ in range(MOST_ROUNDS if _needs_brightness(pairs) else 1):
+            before = _size(pairs)
+            refine.brightness = solve.start = solution
+            call.check(lib.hr2d_refine(pairs, refine), message)
+            call.check(lib.hr2d_solve(pairs, solve, pointer), message)
+            solution = owned(pointer[0], lib.hr2d_solution_destroy, pairs)
+            if _size(pairs) == before:
+                break
+    return Solution(scene, solution, None, points=points)

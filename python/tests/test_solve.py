@@ -154,6 +154,18 @@ def test_a_budget_gives_the_best_solution(room):
     assert s.account.reached and s.account.seconds < 5
 
 
+def test_brightness_reaches_what_is_dark_at_first():
+    scene = hr2d.Scene()
+    walls = [(0, 0), (1, 0), (1, 1), (0, 1), (0, 0)]
+    for a, b in [*zip(walls, walls[1:]), ((.3, .5), (.7, .5)), ((.7, .5), (.3, .5))]:
+        scene.add({"type": "LineString", "coordinates": [a, b]}, reflectance=.5,
+                  emission=float(a == (0, 0)))
+    # tests/data/reference/radiosity_fine.csv; by emission alone the top of the screen is 20 % off
+    expected = [1.1518430209659685, .2371997288039682, .16321399613704679, .2371997288039682,
+                .078667515355878986, .44769129786674039]
+    assert scene.solve(epsilon=.0125, oracle="bf").B[:, 0] == pytest.approx(expected, rel=7e-3)
+
+
 def test_important_patches(room):
     s = room.solve(error=1e-7, important=["table", 0])
     rest = room.solve(error=1e-11)
