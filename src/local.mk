@@ -225,6 +225,10 @@ libhr2d_core_la_SOURCES = \
 	src/field/visibility-polygon.c src/field/visibility-polygon.h \
 	src/field/offset-viewpoint.c \
 	src/refine/count.c \
+	src/refine/law-demand.c src/refine/law-demand.h \
+	src/refine/law-quadrature.c src/refine/law-quadrature.h \
+	src/refine/law-touch.c src/refine/law-touch.h \
+	src/refine/law-view.c src/refine/law-view.h \
 	src/refine/occluded-pairs.c src/refine/occluded-pairs.h \
 	src/refine/part-rows.c src/refine/part-rows.h \
 	src/refine/partition.c src/refine/partition.h \
@@ -236,6 +240,7 @@ libhr2d_core_la_SOURCES = \
 	src/refine/trace-row.c src/refine/trace-row.h \
 	src/refine/rows.c src/refine/rows.h \
 	src/refine/study.c \
+	src/refine/study-law.c \
 	src/refine/unite-shares.c src/refine/unite-shares.h \
 	src/refine/validate-links.c \
 	src/refine/worker.c src/refine/worker.h \

@@ -63,6 +63,7 @@ SUITES = \
 	tests/unit/links/check-store.c \
 	tests/unit/refine/check-validate.c \
 	tests/unit/refine/check-validate-ulps.c \
+	tests/paper/check-law.c \
 	tests/paper/check-theorem.c \
 	tests/unit/oracle/check-squares.c \
 	tests/unit/solution/check-period-points.c \

@@ -25,7 +25,7 @@
  *
  * The algorithm of the paper, step by step:
  * - hierarchy.h, oracle.h, policy.h, linkset.h, refine.h: ProjectKernel.
- * - study.h: hr2d_study_run() measures L against N.
+ * - study.h: hr2d_study_run() measures L against N, hr2d_study_law() predicts them.
  *
  * More kinds of scenes:
  * - thermal.h: hr2d_scene_add_thermal() adds patches of given temperature or heat flux.

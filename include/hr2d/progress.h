@@ -16,6 +16,7 @@
  * - "split": crossings are cut; 0
  * - "commit": patches are checked, walls and effects found; part of the steps
  * - "refine": pairs are subdivided and linked; part of the root pairs
+ * - "law": constants of the law of N and L are integrated; part of the patches
  * - "coefficients": blocks of links are integrated, at an order above 1; part of the links
  * - "rows": row sums and form factors of the background are integrated; 0
  * - "solve": the equation is iterated; part of the digits to gain

@@ -79,6 +79,60 @@ HR2D_API hr2d_status hr2d_study_run(hr2d_linkset *links, const hr2d_refine_optio
 HR2D_API hr2d_status hr2d_study_fit_rows(const hr2d_study_row *rows, size_t count,
                                          hr2d_study_fit *fit);
 
+/** A term `factor`·ε^−`power` of a law. */
+typedef struct hr2d_study_term {
+  double factor; /**< 0: there is no such term */
+  double power;  /**< at least 0 */
+  double error;  /**< GSL's estimate of the error of `factor`: of the quadrature */
+} hr2d_study_term;
+
+/**
+ * The law of N and L: their means over the phases of ε, as ε → 0. Each is a sum of terms, those
+ * that grow most first. What is left out grows less than the first term.
+ */
+typedef struct hr2d_study_constants {
+  double period; /**< the phases repeat when ε is divided by it: 2 for `size`, 4 for `size2`,
+                      8 for `l1` */
+  hr2d_study_term links[3];    /**< of L: the pairs that see each other, then the edges of
+                                    shadows and horizons */
+  hr2d_study_term elements[3]; /**< of N; the last term that is not 0 is minus the number of
+                                    patches, as a tree of n leaves has 2n − 1 elements */
+} hr2d_study_constants;
+
+/**
+ * Finds the constants of the law of N and L without refining anything.
+ *
+ * For `size` and the variant `modified`, with κ the ratio of the longer to the shorter patch of
+ * a pair and l the length of a patch, L ε² and N ε have the means
+ *
+ *     3/(2 ln 2) Σ_pairs κ ∫∫ V/r² dx dy,   2/ln 2 Σ_p ∫ max_y (max(l_p, l_q)/l_p · 1/r) dx
+ *
+ * over an octave of ε, with y all points that x sees, and points at the edge of a shadow twice.
+ * doc/theorem.md has the derivation, and the law for `original` and for `l1`. N and L do not
+ * depend on the order p of the blocks of links.
+ *
+ * @param links      gives the scene, the oracle and the policy, and keeps the message; its
+ * links are not looked at
+ * @param options    `progress` with the phase "law", and `ordered`, which must be 0; NULL for
+ * the defaults. Nothing else is used: no budget or level limits the law
+ * @param constants  receives the law; unchanged on failure
+ * @retval HR2D_OK           success
+ * @retval HR2D_ENOMEM       an allocation failed
+ * @retval HR2D_EINVAL       `struct_size` is too small
+ * @retval HR2D_EUNSUPPORTED the oracle is not `size`, `size2` or `l1`; the policy is not
+ * `original` or `modified`; pairs are ordered; the scene has mirrors or a period; or with
+ * `size` and `size2` two patches touch and see each other there, which the message names: 1/r²
+ * has no integral in a corner
+ * @retval other             the status of the progress callback
+ *
+ * The outer integrals are over the exact views of points of each patch. Their estimated errors
+ * are some 1e-7 of the factors. Cost: some hundred views of each patch, more where views
+ * change, and O(n²) to find corners; `l1` integrates along each part that is seen, at some 50
+ * µs each.
+ */
+HR2D_API hr2d_status hr2d_study_law(hr2d_linkset *links, const hr2d_refine_options *options,
+                                    hr2d_study_constants *constants);
+
 #ifdef __cplusplus
 }
 #endif

@@ -42,6 +42,7 @@ BEGIN {
   good["oracle_find.name"] = "\"size\""; good["policy_find.name"] = "\"original\""
   good["refine_count.links"] = good["refine_visit.links"] = "s->free_links"
   good["study_run.links"] = good["refine.links"] = good["state_read.links"] = "s->free_links"
+  good["study_law.links"] = "s->pair_links"
   good["linkset_create.hierarchy"] = "s->free_hierarchy"
   good["scene_parse.text"] = "s->file"; good["scene_parse.size"] = "strlen(s->file)"
   good["scene_read.path"] = "s->path"; good["state_read_scene.scene"] = "s->empty"

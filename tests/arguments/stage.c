@@ -123,6 +123,22 @@ static void solve(const hr2d_scene *scene, hr2d_hierarchy **hierarchy, hr2d_link
     ck_assert_uint_gt(hr2d_hierarchy_count(*hierarchy).elements, hr2d_scene_patches(scene));
 }
 
+static hr2d_scene *draw_pair(void) {
+  hr2d_scene *scene;
+  ck_assert_int_eq(hr2d_scene_create(NULL, &scene), HR2D_OK);
+  for (int k = 0; k < 2; k++) {
+    const double emission = 1;
+    hr2d_patch patch = HR2D_PATCH_INIT;
+    patch.a = k ? (hr2d_point){1, 1} : (hr2d_point){0, 0};
+    patch.b = k ? (hr2d_point){0, 1} : (hr2d_point){1, 0};
+    patch.emission = &emission;
+    patch.emission_bands = 1;
+    ck_assert_int_eq(hr2d_scene_add(scene, &patch, NULL), HR2D_OK);
+  }
+  ck_assert_int_eq(hr2d_scene_commit(scene), HR2D_OK);
+  return scene;
+}
+
 static void make_objects(stage *s) {
   s->scene = draw();
   s->drawn = draw();
@@ -135,6 +151,8 @@ static void make_objects(stage *s) {
   solve(s->scene, &s->hierarchy, &s->links, &s->solution);
   solve(s->scene, &s->other_hierarchy, &s->other_links, &s->other);
   solve(s->scene, &s->free_hierarchy, &s->free_links, NULL);
+  s->pair = draw_pair();
+  solve(s->pair, &s->pair_hierarchy, &s->pair_links, NULL);
   ck_assert_int_eq(hr2d_clusters_create(s->scene, NULL, on_near_pairs_fn, NULL, &s->clusters),
                    HR2D_OK);
   ck_assert_int_eq(hr2d_exchange_rows_create(s->scene, NULL, &s->rows, NULL), HR2D_OK);
@@ -253,12 +271,15 @@ void stage_end(stage *s) {
   hr2d_solution_destroy(s->solution);
   hr2d_solution_destroy(s->other);
   hr2d_linkset_destroy(s->free_links);
+  hr2d_linkset_destroy(s->pair_links);
   hr2d_linkset_destroy(s->links);
   hr2d_linkset_destroy(s->other_links);
   hr2d_hierarchy_destroy(s->free_hierarchy);
+  hr2d_hierarchy_destroy(s->pair_hierarchy);
   hr2d_hierarchy_destroy(s->hierarchy);
   hr2d_hierarchy_destroy(s->other_hierarchy);
   hr2d_scene_destroy(s->mirrored);
+  hr2d_scene_destroy(s->pair);
   hr2d_scene_destroy(s->empty);
   hr2d_scene_destroy(s->drawn);
   hr2d_scene_destroy(s->scene);

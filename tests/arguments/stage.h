@@ -14,6 +14,9 @@ typedef struct stage {
   hr2d_scene *drawn;    /* that, not committed */
   hr2d_scene *empty;    /* without patches */
   hr2d_scene *mirrored; /* committed, with a mirror */
+  hr2d_scene *pair;     /* committed: two patches that do not touch */
+  hr2d_hierarchy *pair_hierarchy;
+  hr2d_linkset *pair_links;
   hr2d_hierarchy *hierarchy, *free_hierarchy; /* refined, or not */
   hr2d_linkset *links, *free_links;
   hr2d_solution *solution;
@@ -81,6 +84,7 @@ typedef struct stage {
   hr2d_field_counts good_field_counts;
   hr2d_snap_report good_snap_report;
   hr2d_study_fit good_study_fit;
+  hr2d_study_constants good_study_constants;
 } stage;
 
 stage *stage_make(void);

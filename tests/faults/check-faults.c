@@ -273,6 +273,13 @@ static hr2d_status study(fault_stage *s, uint64_t *sum) {
   return fault_study(s, sum, &o, epsilon, 3);
 }
 
+static hr2d_status law(fault_stage *s, uint64_t *sum) {
+  hr2d_study_constants constants;
+  const hr2d_status status = hr2d_study_law(s->links, NULL, &constants);
+  if (!status) *sum = fault_mix(*sum, &constants, sizeof constants);
+  return fault_mix_stage(s, sum, status);
+}
+
 static hr2d_status validate(fault_stage *s, uint64_t *sum) {
   return fault_mix_stage(s, sum, hr2d_linkset_validate(s->links));
 }
@@ -504,6 +511,8 @@ START_TEST(counts) {
   PLAY("hierarchy_push and _pull", {.depth = DEPTH_COMMITTED, .plan = PLAN_PAIR}, fields, NULL,
        0);
   PLAY("study_run", {.depth = DEPTH_COMMITTED, .plan = PLAN_ROOM}, study, of_links, 0);
+  PLAY("study_law", {.depth = DEPTH_COMMITTED, .plan = PLAN_OPEN, .oracle = hr2d_oracle_l1()},
+       law, of_links, 0);
   PLAY("linkset_validate", {.depth = DEPTH_REFINED, .plan = PLAN_ROOM}, validate, of_links, 0);
   PLAY("linkset_validate, directed",
        {.depth = DEPTH_REFINED, .plan = PLAN_OPEN, .oracle = hr2d_oracle_bf()}, validate,

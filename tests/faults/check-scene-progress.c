@@ -161,6 +161,11 @@ static hr2d_status study(stage *t) {
   return hr2d_study_run(t->new_links, &o, epsilon, 2, made, NULL);
 }
 
+static hr2d_status law(stage *t) {
+  hr2d_study_constants constants;
+  return hr2d_study_law(t->new_links, NULL, &constants);
+}
+
 static hr2d_status validate(stage *t) {
   return hr2d_linkset_validate(t->s.links);
 }
@@ -334,6 +339,7 @@ static const struct {
                   {"hr2d_refine_count", count},
                   {"hr2d_refine_visit", visit},
                   {"hr2d_study_run", study},
+                  {"hr2d_study_law", law},
                   {"hr2d_linkset_validate", validate},
                   {"hr2d_solve", solve},
                   {"hr2d_solve_to", solve_to},
