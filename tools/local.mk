@@ -71,6 +71,7 @@ tools_hr2d_SOURCES = $(SOLVE_SOURCES) \
 	tools/study/command.c \
 	tools/study/csv.c \
 	tools/study/json.c \
+	tools/study/law.c \
 	tools/study/plan.c \
 	tools/study/study.h \
 	tools/study/sweep.c \

@@ -434,6 +434,40 @@ check "N, leaves, L and calls are the reference's" cmp "$work/expected" "$work/c
 succeeds study "$narrow" --steps 2 --json "$work/two.json"
 check "two rows have no fit" grep -q '^  "fit": null' "$work/two.json"
 
+# ---- study, with the law: between parallel patches it has a closed form
+law_holds() { # law_holds CSV: L and N of the law are those of patches of length 1, 0.1 apart
+  awk -F, 'NR == 1 { ok = $7 == "law_elements" && $8 == "law_links" }
+    NR > 1 { l2 = log(2); g = 10; n = 4 * g / l2 / $1 - 2
+      l = 3 / l2 * (g * atan2(g, 1) - log(1 + g * g) / 2) / $1 ^ 2
+      ok = ok && ($7 / n - 1) ^ 2 < 1e-16 && ($8 / l - 1) ^ 2 < 1e-16 }
+    END { exit !(ok && NR == 4) }' "$1"
+}
+succeeds study "$narrow" --law --variant modified --steps 3 --json "$work/law.json" \
+  --csv "$work/law.csv"
+check "the law is printed" grep -q '^law: L ≈ 53.68434 ε^-2, N ≈ 57.7078 ε^-1 - 2$' "$work/out"
+check "with L by N" grep -q '; L/N^2 → 0.016121$' "$work/out"
+check "N and L by the law" law_holds "$work/law.csv"
+law_fails() {
+  ! law_holds "$1"
+}
+succeeds study "$narrow" --law --steps 3 --csv "$work/other.csv"
+check "the law of the other variant is another" law_fails "$work/other.csv"
+for key in period links elements factor power error; do
+  check "the law has the key $key" grep -q "^ *\"$key\": " "$work/law.json"
+done
+cp "$work/law.csv" "$work/law-whole.csv"
+sed -i 3d "$work/law.csv"
+succeeds study "$narrow" --law --variant modified --steps 3 --resume --csv "$work/law.csv"
+cut -d, -f1-5,7,8 "$work/law-whole.csv" >"$work/a"
+check "a study with the law is resumed" sh -c "cut -d, -f1-5,7,8 '$work/law.csv' | cmp -s - '$work/a'"
+succeeds study "$narrow" --variant modified --steps 3 --resume --csv "$work/law.csv" --json "$work/law.json"
+check "and without it" sh -c "sed 1d '$work/law.csv' | awk -F, 'NF != 6 { exit 1 }'"
+check "then there is none" lacks '"law"' "$work/law.json"
+expect 1 'patch 0 ("floor") and patch 1 ("wall") touch: with the oracle "size" N and L have no law' \
+  study "$HR2D_SRCDIR/examples/scenes/corner.geojson" --law
+check "nothing is counted then" [ ! -s "$work/out" ]
+expect 1 'there is no law for the oracle "bf"' study "$narrow" --law --oracle bf
+
 # ---- study, resumed: as in one go, seconds apart
 sweep() { # sweep CSV ARGUMENTS...
   csv=$1
@@ -488,7 +522,7 @@ refuses 'line 4 does not begin with an epsilon' '4s/^/-/'
 refuses "line 5: '9x' is no number of leaves" '5s/,[^,]*/,9x/2'
 refuses "line 5: '0' is no number of links" '5s/,[^,]*/,0/3'
 refuses "line 5: '-1' is no number of oracle calls" '5s/,[^,]*/,-1/4'
-refuses 'line 5 does not end with seconds' '5s/[^,]*$/soon/'
+refuses 'line 5 has no seconds' '5s/[^,]*$/soon/'
 refuses 'line 6 contains a NUL byte' '6s/,/\x00/'
 refuses 'is there twice' '7p'
 refuses 'do not belong to a scene of 2 patches' '8s/,[^,]*/,999999/1'
@@ -661,6 +695,9 @@ if command -v gnuplot >/dev/null 2>&1; then
   done
   succeeds study "$narrow" --quiet --plot "$work/plot.svg" --plot-log
   check "the slope is on logarithmic axes" grep -q 'L ∝ N' "$work/plot.svg"
+  check "and no law" lacks 'law of the means' "$work/plot.svg"
+  succeeds study "$narrow" --quiet --law --plot "$work/plot.svg"
+  check "the curve of the law" grep -q 'law of the means' "$work/plot.svg"
 fi
 # A gnuplot that fails, and a PATH that has everything but gnuplot.
 mkdir "$work/bad" "$work/bin"

@@ -92,6 +92,8 @@ static const option_entry table[] = {
   {"plot-log", NULL, GROUP_OUTPUT, VALUE(flag, plot_log),
    .help = {{STUDY, "on logarithmic axes, with the slope of log L on log N"}},
    .needs = "plot"},
+  {"law", NULL, GROUP_OUTPUT, VALUE(flag, law),
+   .help = {{STUDY, "the law of N and L in table, files and plot"}}},
   {"against", "LIST", GROUP_OUTPUT, VALUE(against, against),
    .help = {{COST, "of seconds (default), links, bytes; a panel for each"}},
    .needs = "plot"},

@@ -7,6 +7,8 @@
 #include "output/gnuplot.h"
 #include "study/study.h"
 
+enum { LAW_POINTS = 200 };
+
 static void write_title(FILE *script, const options *o) {
   char title[512];
   snprintf(title, sizeof title, "%s: oracle %s, variant %s", scene_file_name(o),
@@ -87,6 +89,19 @@ static void write_axes(FILE *script, const axis *n, const axis *l, double max,
         script);
 }
 
+/* N and L of the law between the largest and the smallest ε, as a table. */
+static void write_law(FILE *script, const study *s) {
+  const double from = s->rows[0].epsilon, to = s->rows[s->count - 1].epsilon;
+  fputs("$law << END\n", script);
+  for (int k = 0; k <= LAW_POINTS; k++) {
+    const double epsilon = from * pow(to / from, (double)k / LAW_POINTS);
+    const double n = study_law_at(s->law.elements, epsilon);
+    const double l = study_law_at(s->law.links, epsilon);
+    if (n > 0 && l > 0) fprintf(script, "%.17g %.17g\n", n, l);
+  }
+  fputs("END\n", script);
+}
+
 static void write_script(FILE *script, const void *ctx) {
   const study *s = ctx;
   const options *o = s->options;
@@ -101,6 +116,7 @@ static void write_script(FILE *script, const void *ctx) {
   const axis n = choose_axis("elements", max_n, o->plot_log);
   const axis l = choose_axis("links", max_l, o->plot_log);
   fputs("END\n", script);
+  if (s->lawful) write_law(script, s);
   gnuplot_terminal(script, o->plot, 800, 560);
   write_title(script, o);
   write_axes(script, &n, &l, max_n, o->plot_log);
@@ -112,8 +128,14 @@ static void write_script(FILE *script, const void *ctx) {
     write_quadratic(script, &s->fit, &n, &l);
   fprintf(script,
           "$rows using ($1/%g):($2/%g) with points pointtype 7 pointsize %g"
-          " linecolor rgb '#440154' title '%zu values of ε'\n",
+          " linecolor rgb '#440154' title '%zu values of ε'",
           n.divisor, l.divisor, s->count > 60 ? 0.6 : 1.1, s->count);
+  if (s->lawful)
+    fprintf(script,
+            ", $law using ($1/%g):($2/%g) with lines linewidth 2 dashtype 2"
+            " linecolor rgb '#d95f02' title 'law of the means of N and L'",
+            n.divisor, l.divisor);
+  putc('\n', script);
 }
 
 int study_draw(const study *s) {

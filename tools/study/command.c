@@ -116,6 +116,7 @@ static int run_study(study *s, const hr2d_scene *scene) {
     status = hr2d_linkset_create(hierarchy, o->oracle, NULL, o->policy, NULL, &links);
   int code = status ? complain_call(o->scene, "", status) : 0;
   sweep_start(&w, s);
+  if (!code) code = study_find_law(s, links, &w);
   if (!code) code = verify(s, links, &w);
   if (!code) code = measure(s, links, &w);
   hr2d_linkset_destroy(links);
@@ -143,6 +144,7 @@ static int report(study *s) {
   if (fitting && fitting != HR2D_EINVAL) return complain_call(o->scene, "", fitting);
   s->fitted = !fitting;
   if (!s->quiet) print_fit(s);
+  if (!s->quiet && s->lawful) study_print_law(s);
   if (o->csv) status = study_write_csv(s);
   if (o->json && !status) status = study_write_json(s);
   if (o->plot && !status) status = study_draw(s);

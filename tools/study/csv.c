@@ -11,26 +11,33 @@
 #include "output/output.h"
 #include "study/study.h"
 
-enum { FIELDS = 6 };
+/* The first ones are counted; the last two are N and L by the law, with --law. */
+enum { COUNTED = 6, FIELDS = 8 };
 
-static const char *const columns_of_study[FIELDS] = {"epsilon", "elements",     "leaves",
-                                                     "links",   "oracle_calls", "seconds"};
+static const char *const columns_of_study[FIELDS] = {"epsilon",      "elements",     "leaves",
+                                                     "links",        "oracle_calls", "seconds",
+                                                     "law_elements", "law_links"};
 
-static void write_row(FILE *stream, const hr2d_study_row *row) {
+static void write_row(FILE *stream, const study *s, const hr2d_study_row *row) {
   const hr2d_refine_counts *n = &row->counts;
-  fprintf(stream, "%.17g,%llu,%llu,%llu,%llu,%.17g\n", row->epsilon,
+  fprintf(stream, "%.17g,%llu,%llu,%llu,%llu,%.17g", row->epsilon,
           (unsigned long long)n->elements, (unsigned long long)n->leaves,
           (unsigned long long)n->links, (unsigned long long)n->oracle_calls, row->seconds);
+  if (s->lawful)
+    fprintf(stream, ",%.10g,%.10g", study_law_at(s->law.elements, row->epsilon),
+            study_law_at(s->law.links, row->epsilon));
+  putc('\n', stream);
 }
 
 int study_write_csv(const study *s) {
   output out;
   const int status = output_open(&out, s->options->csv);
   if (status) return status;
-  for (int k = 0; k < FIELDS; k++)
-    fprintf(out.stream, "%s%c", columns_of_study[k], k + 1 < FIELDS ? ',' : '\n');
+  const int fields = s->lawful ? FIELDS : COUNTED;
+  for (int k = 0; k < fields; k++)
+    fprintf(out.stream, "%s%c", columns_of_study[k], k + 1 < fields ? ',' : '\n');
   for (size_t k = 0; k < s->count; k++)
-    if (s->rows[k].counts.elements) write_row(out.stream, &s->rows[k]);
+    if (s->rows[k].counts.elements) write_row(out.stream, s, &s->rows[k]);
   return output_close(&out, 0);
 }
 
@@ -55,8 +62,10 @@ static int split(char *line, char *field[FIELDS]) {
   return count;
 }
 
-static int is_header(char *field[FIELDS]) {
-  for (int k = 0; k < FIELDS; k++)
+/* Of a study without or with the law. */
+static int is_header(char *field[FIELDS], int fields) {
+  if (fields != COUNTED && fields != FIELDS) return 0;
+  for (int k = 0; k < fields; k++)
     if (strcmp(field[k], columns_of_study[k])) return 0;
   return 1;
 }
@@ -70,12 +79,12 @@ static int read_row(const char *path, size_t number, char *field[FIELDS], hr2d_s
   *row = (hr2d_study_row){0};
   if (number_real(field[0], &row->epsilon) || row->epsilon <= 0)
     return refuse(path, number, "does not begin with an epsilon");
-  for (int k = 1; k < FIELDS - 1; k++)
+  for (int k = 1; k < COUNTED - 1; k++)
     if (number_count(field[k], UINT64_MAX, &count[k]) || !count[k])
       return complain(path, "cannot be resumed: line %zu: '%s' is no number of %s", number,
                       field[k], k == 4 ? "oracle calls" : columns_of_study[k]);
-  if (number_real(field[FIELDS - 1], &row->seconds) || row->seconds < 0)
-    return refuse(path, number, "does not end with seconds");
+  if (number_real(field[COUNTED - 1], &row->seconds) || row->seconds < 0)
+    return refuse(path, number, "has no seconds");
   row->counts.elements = count[1];
   row->counts.leaves = count[2];
   row->counts.links = count[3];
@@ -83,8 +92,8 @@ static int read_row(const char *path, size_t number, char *field[FIELDS], hr2d_s
   return 0;
 }
 
-/* Line 1 has to be the header; other lines are rows. */
-static int read_line(const char *path, size_t number, char *line, size_t size,
+/* Line 1 has to be the header, which sets the number of fields; other lines are rows. */
+static int read_line(const char *path, size_t number, char *line, size_t size, int *fields,
                      hr2d_study_row *row) {
   char *field[FIELDS];
   if (strlen(line) < size) return refuse(path, number, "contains a NUL byte");
@@ -92,13 +101,12 @@ static int read_line(const char *path, size_t number, char *line, size_t size,
   line[--size] = '\0';
   if (size && line[size - 1] == '\r') line[--size] = '\0';
   const int count = split(line, field);
+  if (number == 1) *fields = count;
   if (number == 1)
-    return count == FIELDS && is_header(field)
-               ? 0
-               : refuse(path, number, "is not the header of a study");
-  if (count != FIELDS)
+    return is_header(field, count) ? 0 : refuse(path, number, "is not the header of a study");
+  if (count != *fields)
     return complain(path, "cannot be resumed: line %zu has %s fields, not %d", number,
-                    count < FIELDS ? "fewer" : "more", FIELDS);
+                    count < *fields ? "fewer" : "more", *fields);
   return read_row(path, number, field, row);
 }
 
@@ -117,10 +125,10 @@ static int append(hr2d_study_row **rows, size_t *count, const hr2d_study_row *ro
 static int read_lines(const char *path, FILE *stream, hr2d_study_row **rows, size_t *count) {
   char *line = NULL;
   size_t capacity = 0, number = 0;
-  int status = 0;
+  int status = 0, fields = 0;
   hr2d_study_row row;
   for (ssize_t size; !status && (size = getline(&line, &capacity, stream)) > 0;) {
-    status = read_line(path, ++number, line, (size_t)size, &row);
+    status = read_line(path, ++number, line, (size_t)size, &fields, &row);
     if (!status && number > 1) status = append(rows, count, &row);
   }
   free(line);

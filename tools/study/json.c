@@ -25,6 +25,27 @@ static json_t *fit_entry(const hr2d_study_fit *fit) {
   return entry;
 }
 
+static json_t *terms_entry(const hr2d_study_term term[STUDY_TERMS]) {
+  json_t *terms = json_array();
+  for (int k = 0; k < STUDY_TERMS; k++) {
+    if (term[k].factor == 0) continue;
+    json_t *entry = json_object();
+    json_put(&entry, "factor", json_number(term[k].factor));
+    json_put(&entry, "power", json_number(term[k].power));
+    json_put(&entry, "error", json_number(term[k].error));
+    json_push(&terms, entry);
+  }
+  return terms;
+}
+
+static json_t *law_entry(const hr2d_study_constants *law) {
+  json_t *entry = json_object();
+  json_put(&entry, "period", json_number(law->period));
+  json_put(&entry, "links", terms_entry(law->links));
+  json_put(&entry, "elements", terms_entry(law->elements));
+  return entry;
+}
+
 int study_write_json(const study *s) {
   const options *o = s->options;
   json_t *root = json_object(), *rows = json_array();
@@ -35,6 +56,7 @@ int study_write_json(const study *s) {
   json_put(&root, "variant", json_text(o->policy->name));
   json_put(&root, "rows", rows);
   json_put(&root, "fit", s->fitted ? fit_entry(&s->fit) : json_null());
+  if (s->lawful) json_put(&root, "law", law_entry(&s->law));
   json_put(&root, "status", json_text(s->complete ? "ok" : "incomplete"));
   return json_write(root, o->json);
 }

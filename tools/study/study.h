@@ -17,8 +17,10 @@ typedef struct study {
   size_t known; /* rows that --resume found */
   hr2d_study_fit fit;
   int fitted;
-  int quiet;    /* no table */
-  int complete; /* nothing ended the sweep early */
+  hr2d_study_constants law; /* of --law */
+  int lawful;               /* it is there */
+  int quiet;                /* no table */
+  int complete;             /* nothing ended the sweep early */
 } study;
 
 /* plan.c: the rows of the CSV with --resume, and those that are still to be counted.  Returns
@@ -60,5 +62,14 @@ hr2d_status sweep_next(sweep *w, const study *s, size_t step);
 
 /* A progress callback of the library; ctx is a sweep. */
 hr2d_status sweep_show(void *ctx, const hr2d_progress *now);
+
+/* law.c: finds the law if --law asks for it.  Returns 0, or the exit status after an error
+   message; then there is nothing to report. */
+int study_find_law(study *s, hr2d_linkset *links, sweep *w);
+void study_print_law(const study *s);
+
+/* N or L by its terms. */
+enum { STUDY_TERMS = 3 };
+double study_law_at(const hr2d_study_term term[STUDY_TERMS], double epsilon);
 
 #endif
