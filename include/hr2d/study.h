@@ -112,23 +112,24 @@ typedef struct hr2d_study_constants {
  * depend on the order p of the blocks of links.
  *
  * @param links      gives the scene, the oracle and the policy, and keeps the message; its
- * links are not looked at
+ *                   links are not looked at
  * @param options    `progress` with the phase "law", and `ordered`, which must be 0; NULL for
- * the defaults. Nothing else is used: no budget or level limits the law
+ *                   the defaults. Nothing else is used: no budget or level limits the law
  * @param constants  receives the law; unchanged on failure
  * @retval HR2D_OK           success
  * @retval HR2D_ENOMEM       an allocation failed
  * @retval HR2D_EINVAL       `struct_size` is too small
  * @retval HR2D_EUNSUPPORTED the oracle is not `size`, `size2` or `l1`; the policy is not
- * `original` or `modified`; pairs are ordered; the scene has mirrors or a period; or with
- * `size` and `size2` two patches touch and see each other there, which the message names: 1/r²
- * has no integral in a corner
+ *                           `original` or `modified`; pairs are ordered; the scene has
+ *                           mirrors or a period; or with `size` and `size2` two patches touch
+ *                           and see each other there, which the message names: 1/r² has no
+ *                           integral in a corner
  * @retval other             the status of the progress callback
  *
  * The outer integrals are over the exact views of points of each patch. Their estimated errors
  * are some 1e-7 of the factors. Cost: some hundred views of each patch, more where views
- * change, and O(n²) to find corners; `l1` integrates along each part that is seen, at some 50
- * µs each.
+ * change, and O(n²) to find corners. `l1` integrates along each part that is seen, at some 10
+ * µs: a second for some patches and a screen, but minutes for hundreds of occluders.
  */
 HR2D_API hr2d_status hr2d_study_law(hr2d_linkset *links, const hr2d_refine_options *options,
                                     hr2d_study_constants *constants);

@@ -17,7 +17,7 @@
 /* An edge that is nearer to x, in coordinates below 2, is the foot of a wall in a corner. */
 #define FOOT 1e-6
 
-enum { SAMPLES = 32 /* of a demand along a part that is seen */, SECTIONS = 24 };
+enum { SAMPLES = 32 /* of a demand over a part that is seen */, SECTIONS = 24 };
 
 /* A part of a patch that the point x sees, from y_0 to y_1. */
 typedef struct part {
@@ -49,28 +49,45 @@ static double nearest(const part *s) {
   return fmin(fmax(t, s->from), s->to);
 }
 
-/* The largest demand at x along the part: the best of some samples, then golden sections. */
-static double largest(const part *s) {
-  if (!s->view->rule->l1) return demand_at(s, nearest(s)).x;
-  const double step = (s->to - s->from) / SAMPLES, golden = 0.61803398874989485;
-  double best = 0, at = 0;
+/* The demand at x by the point in direction θ, from the perpendicular on the line of y. */
+static double demand_towards(const part *s, double theta) {
+  const hr2d_point to_x = hr2di_point_minus(s->x, s->pair.q.a);
+  const double foot = hr2di_point_dot(to_x, s->pair.along_q);
+  const double h = hr2di_point_cross(s->pair.along_q, to_x);
+  const double t = (foot + h * tan(theta)) / s->pair.length_q;
+  return demand_at(s, fmin(fmax(t, s->from), s->to)).x;
+}
+
+static double direction_of(const part *s, double t) {
+  const hr2d_point d = hr2di_point_minus(hr2di_point_at(s->pair.q, t), s->x);
+  return atan2(hr2di_point_dot(d, s->pair.along_q), -hr2di_point_cross(s->pair.along_q, d));
+}
+
+/* The largest demand at x along the part, or `known` if that is larger.  Demands change over
+   angles: the best of some directions, then golden sections, unless that is far from enough. */
+static double largest(const part *s, double known) {
+  if (!s->view->rule->l1) return fmax(known, demand_at(s, nearest(s)).x);
+  const double first = direction_of(s, s->from), last = direction_of(s, s->to);
+  const double step = (last - first) / SAMPLES, golden = 0.61803398874989485;
+  double best = 0;
+  int at = 0;
   for (int k = 0; k <= SAMPLES; k++) {
-    const double d = demand_at(s, s->from + k * step).x;
+    const double d = demand_towards(s, first + k * step);
     if (d > best) at = k;
     best = fmax(best, d);
   }
-  double low = fmax(s->from, s->from + (at - 1) * step);
-  double high = fmin(s->to, s->from + (at + 1) * step);
+  if (1.1 * best < known) return known;
+  double low = first + fmax(at - 1, 0) * step, high = first + fmin(at + 1, SAMPLES) * step;
   for (int k = 0; k < SECTIONS; k++) {
     const double left = high - golden * (high - low), right = low + golden * (high - low);
-    const double on_left = demand_at(s, left).x, on_right = demand_at(s, right).x;
+    const double on_left = demand_towards(s, left), on_right = demand_towards(s, right);
     best = fmax(best, fmax(on_left, on_right));
     if (on_left > on_right)
       high = right;
     else
       low = left;
   }
-  return best;
+  return fmax(known, best);
 }
 
 /* ∫ |dr/dx|/r² dy.  With y at s from the foot of x, which is h away, dr/dx = (c + e s)/r and
@@ -149,7 +166,7 @@ static hr2d_status add_interval(part *s, const hr2di_view_from *seen, size_t k, 
   if (hr2di_law_halves_links(s->view->rule, &s->pair) != 0)
     value[HR2DI_LAW_CLEAR_LINKS] +=
         hr2di_law_halves_links(s->view->rule, &s->pair) * inverse_square_slope(s);
-  *clear = fmax(*clear, largest(s));
+  *clear = largest(s, *clear);
   if (i->from > END && (k == 0 || ends(i - 1, i))) add_edge(s, i->from, value, edge);
   if (i->to < 1 - END && (k + 1 == seen->count || ends(i, i + 1)))
     add_edge(s, i->to, value, edge);

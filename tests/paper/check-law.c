@@ -67,7 +67,7 @@ static int holds(ratios r, double links, double elements) {
 }
 
 static double million(void) {
-  return 1e6 * fmax(fmin(test_multiplier(), 1), 0.05);
+  return 2e6 * fmax(fmin(test_multiplier(), 1), 0.025);
 }
 
 static const struct {
@@ -178,14 +178,14 @@ static hr2d_scene *screened(int both) {
 
 START_TEST(occluded_scenes_follow_the_law) {
   for (int k = 0; k < 4; k++) {
-    const double wanted = fmax(1e7 * fmin(test_multiplier(), 1) / 10, 5e4);
+    const double wanted = fmax(2e7 * pow(fmin(test_multiplier(), 1), 2), 5e4);
     test_links t = test_make_links(screened(k / 2), NULL, NULL, variant(k % 2), NULL);
     const ratios r = measure(&t, wanted, 0, 1);
     printf("screened, %s: L %.2g: %.5f (%.5f) N %.5f\n", variant(k % 2)->name, r.most_links,
            r.links, r.first_links, r.elements);
     ck_assert(holds(r, 2e-3, bar(3e-3, wanted)));
     /* The edges of shadows matter here. */
-    if (wanted < 2e5) ck_assert_double_gt(r.first_links - 1, 4e-3);
+    if (wanted < 3e5) ck_assert_double_gt(r.first_links - 1, 4e-3);
     test_free_links(&t);
   }
 }
