@@ -7,6 +7,7 @@ EXTRA_DIST += \
 	python/hr2d/_draw.py \
 	python/hr2d/_errors.py \
 	python/hr2d/_geojson.py \
+	python/hr2d/_law.py \
 	python/hr2d/_links.py \
 	python/hr2d/_scene.py \
 	python/hr2d/_solution.py \
@@ -23,6 +24,7 @@ EXTRA_DIST += \
 	python/tests/test_symmetry.py \
 	python/tests/test_draw.py \
 	python/tests/test_drawings.py \
+	python/tests/test_law.py \
 	python/tests/test_one_value.py python/tests/test_scene.py \
 	python/tests/test_links.py \
 	python/tests/test_operator.py \

@@ -18,6 +18,7 @@ from ._errors import (AccuracyError, AccuracyWarning, CallbackError, Error, File
                       OutOfMemory, RangeError, SceneError, StateError, Stopped, Unsupported)
 from ._hr2d import ffi as _ffi
 from ._hr2d import lib as _lib
+from ._law import Law, Term
 from ._links import Fit, Links, Study
 from ._operator import Gradient, Lights, Operator
 from ._scene import Scene, SceneWarning, Snap, Sun, exchange_area, read
@@ -28,9 +29,9 @@ __version__: str = _ffi.string(_lib.hr2d_version()).decode()
 
 __all__ = [
     "Account", "AccuracyError", "AccuracyWarning", "Batch", "Bounded", "CallbackError", "Error",
-    "Field", "FileError", "Fit", "FormatError", "Gradient", "InvalidArgument", "Lights",
+    "Field", "FileError", "Fit", "FormatError", "Gradient", "InvalidArgument", "Law", "Lights",
     "LimitReached", "Links", "NoSolution", "NotConverged", "Operator", "Oracle", "OutOfMemory",
     "Points", "Policy", "Power", "Progress", "RangeError", "SPLIT_BOTH", "SPLIT_FIRST",
     "SPLIT_SECOND", "Scene", "SceneError", "SceneWarning", "Snap", "Solution", "StateError",
-    "Stopped", "Study", "Sun", "Temperatures", "Unsupported", "exchange_area", "read",
+    "Stopped", "Study", "Sun", "Temperatures", "Term", "Unsupported", "exchange_area", "read",
 ]

@@ -10,6 +10,7 @@ import numpy as np
 from ._arrays import ELEMENT, doubles, frozen, view
 from ._calls import Call, ProgressFunction
 from ._hr2d import ffi, lib
+from ._law import Law, find_law
 from ._strategy import OracleLike, PolicyLike
 from ._solve import empty_links, refine_options
 
@@ -148,9 +149,10 @@ class Fit(NamedTuple):
 class Study:
     """L against N; arrays have an item per ε."""
 
-    def __init__(self, scene: Any, rows: np.ndarray, raw: Any):
+    def __init__(self, scene: Any, rows: np.ndarray, raw: Any, pairs: Any):
         self.scene = scene
         self._raw = raw
+        self._pairs = pairs
         self.epsilon: np.ndarray = rows["epsilon"].copy()
         self.N: np.ndarray = rows["N"].astype(np.int64)
         """Elements: all nodes of all trees."""
@@ -179,6 +181,11 @@ class Study:
             call.check(lib.hr2d_study_fit_rows(self._raw, len(self), raw))
         return Fit(raw.a, raw.b, raw.c, raw.r2, raw.slope)
 
+    @cached_property
+    def law(self) -> Law:
+        """What the theorem says of L and N, with its constants; see Scene.study_law()."""
+        return find_law(self._pairs)
+
 
 def refine(scene: Any, paper: Dict[str, Any], limits: Dict[str, int], ordered: bool,
            progress: Optional[ProgressFunction]) -> Links:
@@ -205,4 +212,10 @@ def study(scene: Any, epsilon: Union[Sequence[float], np.ndarray], paper: Dict[s
         if len(values):
             call.check(lib.hr2d_study_run(pairs, options, doubles(values), len(values), rows,
                                           ffi.NULL), lambda: lib.hr2d_linkset_message(pairs))
-    return Study(scene, np.frombuffer(ffi.buffer(rows), _ROW)[:len(values)], rows)
+    return Study(scene, np.frombuffer(ffi.buffer(rows), _ROW)[:len(values)], rows, pairs)
+
+
+def law(scene: Any, paper: Dict[str, Any], progress: Optional[ProgressFunction]) -> Law:
+    with Call(progress) as call:
+        pairs = empty_links(scene, paper, call)
+    return find_law(pairs, progress)

@@ -17,6 +17,7 @@ from ._calls import POLL, Call, ProgressFunction, keep_exception, owned, thread_
 from ._errors import SceneError, StateError
 from ._geojson import outside_of, text_of
 from ._hr2d import ffi, lib
+from ._law import Law
 from ._links import Links, Study
 from ._operator import Operator
 from ._solution import Solution
@@ -576,6 +577,18 @@ class Scene:
                   "threads": thread_count(threads)}
         self.commit()
         return _links.study(self, epsilon, paper, limits, ordered, progress)
+
+    def study_law(self, *, oracle: OracleLike = None, policy: PolicyLike = None,
+                  progress: Optional[ProgressFunction] = None) -> Law:
+        """The numbers of elements and links by the paper's algorithm, before it runs: their means
+        over the phases of ε, as sums of powers of ε.
+
+        `oracle` is "size" (default), "size2" or "l1", `policy` is "original" (default) or
+        "modified".  Unsupported is raised for others, for scenes with mirrors or a period, and,
+        except with "l1", where patches touch and see each other.
+        """
+        self.commit()
+        return _links.law(self, {"oracle": oracle, "policy": policy}, progress)
 
     # Pictures
 
