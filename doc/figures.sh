@@ -244,6 +244,10 @@ $(comparison orth-near "unset key")
 $(comparison orth-far "unset key")
 END
 
+# The law beside dots and fit, with the oracle of the analysis.
+"$hr2d" study "$scenes/par-near.geojson" --law --to 0.00390625 --steps "$steps" --quiet \
+  --plot "$out/law.png"
+
 all_methods=size,size2,bf,l1,l1-grid,bounds,multigrid,order-2,order-4,order-8,order-16,auto,auto-solve,factors
 few_methods=size,multigrid,order-4,auto,auto-solve,factors
 # cost NAME SCENE [METHODS]: seconds and links against error, with the rows; for each method a row of
