@@ -24,6 +24,10 @@ static int touches(hr2d_segment s, hr2d_point p, double *at) {
   return fabs(d.x) < NEAR && fabs(d.y) < NEAR;
 }
 
+static int apart(double a, double b, double c, double d) {
+  return fmax(a, b) + NEAR < fmin(c, d) || fmax(c, d) + NEAR < fmin(a, b);
+}
+
 /* Whether a point of patch p beside fraction t sees patch q around fraction u. */
 static hr2d_status look(const hr2di_law_view *view, size_t p, double t, size_t q, double u,
                         int *sees) {
@@ -42,6 +46,9 @@ static hr2d_status meet(const hr2di_law_view *view, size_t p, size_t q, int *see
   const hr2d_segment on_p = view->scene->patch[p].scaled, on_q = view->scene->patch[q].scaled;
   const hr2d_point end[] = {on_p.a, on_p.b, on_q.a, on_q.b};
   hr2d_status status = HR2D_OK;
+  if (apart(on_p.a.x, on_p.b.x, on_q.a.x, on_q.b.x) ||
+      apart(on_p.a.y, on_p.b.y, on_q.a.y, on_q.b.y))
+    return HR2D_OK;
   for (size_t k = 0; k < 4 && !status && !*sees; k++) {
     double t, u;
     if (!touches(on_p, end[k], &t) || !touches(on_q, end[k], &u)) continue;
