@@ -191,6 +191,63 @@ START_TEST(occluded_scenes_follow_the_law) {
 }
 END_TEST
 
+/* The least distance of the ends of each of two segments from the other one; 0 if they cross.
+ */
+static double clearance(hr2d_segment s, hr2d_segment t) {
+  const hr2d_point end[] = {s.a, s.b, t.a, t.b};
+  double least = HUGE_VAL;
+  if (hr2d_orientation(s.a, s.b, t.a) != hr2d_orientation(s.a, s.b, t.b) &&
+      hr2d_orientation(t.a, t.b, s.a) != hr2d_orientation(t.a, t.b, s.b))
+    return 0;
+  for (int k = 0; k < 4; k++) {
+    const hr2d_segment of = k < 2 ? t : s;
+    const double ux = of.b.x - of.a.x, uy = of.b.y - of.a.y;
+    const double px = end[k].x - of.a.x, py = end[k].y - of.a.y;
+    const double along = fmax(0, fmin(1, (px * ux + py * uy) / (ux * ux + uy * uy)));
+    least = fmin(least, hypot(px - along * ux, py - along * uy));
+  }
+  return least;
+}
+
+/* Seven patches of one or two sides in a square, which hide each other and do not touch. */
+static hr2d_scene *random_screens(randoms *r) {
+  enum { SCREENS = 7 };
+  hr2d_segment s[SCREENS];
+  hr2d_scene *scene = test_new_scene(NULL);
+  for (int k = 0; k < SCREENS;) {
+    const double x = random_between(r, 0, 2), y = random_between(r, 0, 2);
+    const double l = random_between(r, .3, 1.1), turn = random_between(r, 0, 6.3);
+    double least = HUGE_VAL;
+    s[k] = (hr2d_segment){{x, y}, {x + l * cos(turn), y + l * sin(turn)}};
+    for (int j = 0; j < k; j++) least = fmin(least, clearance(s[j], s[k]));
+    k += least > 0.15;
+  }
+  for (int k = 0; k < SCREENS; k++)
+    test_add_patch(scene, s[k], 1, .5, random_below(r, 2) ? HR2D_SIDES_BOTH : HR2D_SIDES_FRONT);
+  test_commit(scene);
+  return scene;
+}
+
+START_TEST(random_screens_follow_the_law) {
+  const int scenes = test_multiplier() < 1 ? 4 : 20;
+  double worst[3] = {0};
+  for (int k = 0; k < scenes; k++) {
+    randoms r = randoms_stream(test_seed(), 100 + k);
+    test_links t = test_make_links(random_screens(&r), NULL, NULL, variant(k % 2), NULL);
+    const ratios got = measure(&t, million(), 0, 1);
+    worst[0] = fmax(worst[0], fabs(got.links - 1));
+    worst[1] = fmax(worst[1], fabs(got.elements - 1));
+    worst[2] = fmax(worst[2], fabs(got.first_links - 1));
+    ck_assert_msg(holds(got, bar(2e-3, million()), bar(3e-3, million())),
+                  "scene %d: L %.5f N %.5f", k, got.links, got.elements);
+    test_free_links(&t);
+  }
+  printf("%d scenes of screens: L off by at most %.1e (%.1e), N by %.1e\n", scenes, worst[0],
+         worst[2], worst[1]);
+  ck_assert_double_gt(worst[2], bar(2e-3, million())); /* without edges */
+}
+END_TEST
+
 /* A horizon: the line of the first patch crosses the second, and nothing is in the way. */
 START_TEST(horizons_follow_the_law) {
   const double p[][6] = {{0, 0, 1, 0, 1, .5}, {1.4, -.4, 1.5, .73, 1, .5}};
@@ -371,8 +428,8 @@ TEST_SUITE("law") {
   ADD_TESTS("counts", paper_scenes_follow_the_law, the_square_follows_it_too,
             the_exact_oracle_follows_the_law, random_pairs_follow_the_law,
             what_is_not_the_law_is_refused);
-  ADD_TESTS("views", occluded_scenes_follow_the_law, horizons_follow_the_law,
-            shadows_change_the_power_of_the_exact_oracle);
+  ADD_TESTS("views", occluded_scenes_follow_the_law, random_screens_follow_the_law,
+            horizons_follow_the_law, shadows_change_the_power_of_the_exact_oracle);
   ADD_TESTS("constants", constants_have_closed_forms, lengths_enter_as_derived,
             units_do_not_matter, the_order_does_not_enter);
   ADD_TESTS("refusals", what_has_no_law_is_refused, it_can_be_stopped);
