@@ -15,6 +15,7 @@ EXTRA_DIST += \
 	python/hr2d/_solve.py \
 	python/hr2d/_strategy.py \
 	python/hr2d/py.typed \
+	python/hr2d_backend.py \
 	python/hr2d_build.py \
 	python/pyproject.toml \
 	python/setup.py \

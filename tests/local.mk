@@ -432,7 +432,7 @@ installcheck-local:
 	bindir='$(bindir)' PKG_CONFIG='$(PKG_CONFIG)' CC='$(CC)' CXX='$(CXX)' \
 	VERSION='$(VERSION)' $(SHELL) $(srcdir)/tests/package/consumer/run.sh $(srcdir)/tests/package/consumer
 
-EXTRA_DIST += $(OUTSIDE) tests/docs/blocks.awk tests/docs/compare.awk tests/docs/pages.sh \
+EXTRA_DIST += $(OUTSIDE) tests/docs/blocks.awk tests/docs/compare.awk tests/docs/pages.sh tests/package/python.sh \
 	tests/digits.sh tests/lsan.supp tests/matrix.sh tests/summary.sh \
 	tests/data tests/program/cli tests/program/vti.py tests/threads/race.c \
 	tests/package/consumer/main.c \

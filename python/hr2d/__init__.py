@@ -12,12 +12,18 @@
 
 The library's manual, with equations and bounds of errors, are its headers, hr2d/hr2d.h.
 """
+try:
+    from ._hr2d import ffi as _ffi
+    from ._hr2d import lib as _lib
+except ImportError as error:
+    if "libhr2d" not in str(error):
+        raise
+    raise ImportError(f"{error}: run ldconfig if it is installed, or set LD_LIBRARY_PATH to its "
+                      "folder; a wheel made by `make wheel` needs no libhr2d") from None
 from ._calls import Progress
 from ._errors import (AccuracyError, AccuracyWarning, CallbackError, Error, FileError,
                       FormatError, InvalidArgument, LimitReached, NoSolution, NotConverged,
                       OutOfMemory, RangeError, SceneError, StateError, Stopped, Unsupported)
-from ._hr2d import ffi as _ffi
-from ._hr2d import lib as _lib
 from ._law import Law, Term
 from ._links import Fit, Links, Study
 from ._operator import Gradient, Lights, Operator
