@@ -150,5 +150,7 @@ _cflags, _libs = pkg_config("--cflags"), pkg_config("--libs")
 _include, _other_cflags = split(_cflags, "-I")
 _folders, _other_libs = split(_libs, "-L")
 ffi.cdef(declarations(_cflags) + HELPERS + f'extern "Python" {{ {CALLBACKS} }}')
-ffi.set_source("hr2d._hr2d", SOURCE, include_dirs=_include, extra_compile_args=_other_cflags,
-               library_dirs=_folders, extra_link_args=_other_libs)
+# Python looks for one function, which says itself that it is to be seen.
+ffi.set_source("hr2d._hr2d", SOURCE, include_dirs=_include,
+               extra_compile_args=["-fvisibility=hidden", *_other_cflags], library_dirs=_folders,
+               extra_link_args=_other_libs)

@@ -1,6 +1,8 @@
 # The Python package.  tests/package/check-python.sh installs and tests it; see README.md.
 EXTRA_DIST += \
 	python/README.md \
+	python/bundled/NOTICE \
+	python/bundled/make.sh \
 	python/hr2d/__init__.py \
 	python/hr2d/_arrays.py \
 	python/hr2d/_calls.py \
@@ -31,3 +33,18 @@ EXTRA_DIST += \
 	python/tests/test_operator.py \
 	python/tests/test_solve.py \
 	python/tests/test_thermal.py
+
+# `make wheel` makes wheel/hr2d-*.whl, which carries the library, GSL and jansson, from the objects of
+# the shared library.  tests/package/check-wheel.sh installs and tests it.
+EXTRA_LTLIBRARIES = python/libstreams.la
+python_libstreams_la_SOURCES = python/bundled/streams.c
+python_libstreams_la_CPPFLAGS =
+wheel: libhr2d.la python/libstreams.la
+	@VERSION='$(VERSION)' PKG_CONFIG='$(PKG_CONFIG)' PYTHON='$(PYTHON)' \
+	  $(SHELL) $(srcdir)/python/bundled/make.sh '$(abs_top_srcdir)' wheel \
+	  ' $(GSL_LIBS) $(JANSSON_LIBS)'
+clean-wheel:
+	rm -rf wheel
+clean-local: clean-wheel
+.PHONY: wheel clean-wheel
+CLEANFILES += python/libstreams.la

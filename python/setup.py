@@ -8,4 +8,6 @@ from setuptools import setup
 sys.path.insert(0, str(Path(__file__).parent))
 from hr2d_build import pkg_config  # noqa: E402
 
-setup(version=pkg_config("--modversion")[0], cffi_modules=["hr2d_build.py:ffi"])
+# The extension keeps to Python's stable interface, as cffi makes it: one wheel for 3.9 and later.
+setup(version=pkg_config("--modversion")[0], cffi_modules=["hr2d_build.py:ffi"],
+      options={"bdist_wheel": {"py_limited_api": "cp39"}})
