@@ -95,8 +95,9 @@ typedef struct hr2d_study_constants {
                       8 for `l1` */
   hr2d_study_term links[3];    /**< of L: the pairs that see each other, then the edges of
                                     shadows and horizons */
-  hr2d_study_term elements[3]; /**< of N; the last term that is not 0 is minus the number of
-                                    patches, as a tree of n leaves has 2n − 1 elements */
+  hr2d_study_term elements[3]; /**< of N; the last term has the power 0: −1 for each patch that
+                                    sees another, as a tree of n leaves has 2n − 1 elements,
+                                    and 1 for each that sees none */
 } hr2d_study_constants;
 
 /**

@@ -22,8 +22,8 @@ typedef struct law {
   hr2di_watch watch;
   hr2di_law_view view;
   double sum[HR2DI_LAW_PARTS], error[HR2DI_LAW_PARTS];
-  size_t patches; /* that take part */
-  double done;    /* part of the patches */
+  double roots; /* the term of N that does not grow */
+  double done;  /* part of the patches */
 } law;
 
 static void describe(void *of, hr2d_progress *report) {
@@ -61,11 +61,13 @@ static hr2d_status integrate(law *l) {
                                        .tolerance = inner_tolerance(l) + TOLERANCE};
   hr2d_status status = HR2D_OK;
   for (size_t k = 0; k < patches && !status; k++) {
-    l->patches++;
+    double sum[HR2DI_LAW_PARTS] = {0};
     l->view.patch = k;
     l->done = (double)k / (double)patches;
     if (hr2di_scene_lit(l->view.scene, k))
-      status = hr2di_law_integrate(&integral, 0, 1, l->sum, l->error);
+      status = hr2di_law_integrate(&integral, 0, 1, sum, l->error);
+    for (size_t part = 0; part < HR2DI_LAW_PARTS; part++) l->sum[part] += sum[part];
+    l->roots += sum[HR2DI_LAW_ELEMENTS] + sum[HR2DI_LAW_EDGE_ELEMENTS] > 0 ? -1 : 1;
   }
   return fail(l, status);
 }
@@ -81,14 +83,14 @@ static hr2d_study_term both(hr2d_study_term a, hr2d_study_term b) {
   return (hr2d_study_term){a.factor + b.factor, a.power, a.error + b.error};
 }
 
-/* A tree of n leaves has 2n − 1 elements. */
+/* A tree of n leaves has 2n − 1 elements; n grows, or is 1 where a patch sees nothing. */
 static hr2d_study_constants constants_of(const law *l) {
   const double clear = l->rule.power, edge = l->rule.edge_power;
   const hr2d_study_term edge_links = term(l, HR2DI_LAW_EDGE_LINKS, edge);
   const hr2d_study_term clear_links = term(l, HR2DI_LAW_CLEAR_LINKS, clear);
   const hr2d_study_term edge_elements = term(l, HR2DI_LAW_EDGE_ELEMENTS, edge);
   const hr2d_study_term elements = term(l, HR2DI_LAW_ELEMENTS, clear);
-  const hr2d_study_term roots = {-(double)l->patches, 0, 0};
+  const hr2d_study_term roots = {l->roots, 0, 0};
   hr2d_study_constants c = {.period = exp2(1 / clear)};
   c.links[0] = term(l, HR2DI_LAW_LINKS, 2 * clear);
   if (edge == clear) {

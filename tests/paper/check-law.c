@@ -331,6 +331,30 @@ START_TEST(lengths_enter_as_derived) {
 }
 END_TEST
 
+/* A patch that sees nothing stays whole: it is one element. */
+START_TEST(patches_without_a_view_are_one_element) {
+  const double p[][6] = {{0, 0, 1, 0, 1, .5},
+                         {1, 1, 0, 1, 1, .5},
+                         {1, -1, 0, -1, 1, .5},
+                         {3, 0, 2, 0, 1, .5},
+                         {5, 0, 4, 0, 1, .5}};
+  for (int k = 0; k < 4; k++) {
+    const int blind = k / 2;
+    test_links t = test_make_links(test_scene(p + 2 * blind, blind ? 3 : 5),
+                                   k % 2 ? hr2d_oracle_l1() : NULL, NULL, NULL, NULL);
+    const hr2d_study_constants law = law_of(&t);
+    ck_assert_double_eq(law.elements[1].factor, blind ? 3 : 3 - 2);
+    ck_assert_double_eq(law.elements[1].power, 0);
+    const double epsilon = 0.01;
+    hr2d_study_row row;
+    ck_assert_int_eq(hr2d_study_run(t.links, NULL, &epsilon, 1, &row, NULL), HR2D_OK);
+    if (blind) ck_assert_double_eq(at(law.elements, epsilon), (double)row.counts.elements);
+    if (blind) ck_assert_double_eq(at(law.links, epsilon), (double)row.counts.links);
+    test_free_links(&t);
+  }
+}
+END_TEST
+
 /* Scenes of other units: `size` has no length, ε of `l1` is one. */
 START_TEST(units_do_not_matter) {
   const double s = 300;
@@ -431,6 +455,7 @@ TEST_SUITE("law") {
   ADD_TESTS("views", occluded_scenes_follow_the_law, random_screens_follow_the_law,
             horizons_follow_the_law, shadows_change_the_power_of_the_exact_oracle);
   ADD_TESTS("constants", constants_have_closed_forms, lengths_enter_as_derived,
-            units_do_not_matter, the_order_does_not_enter);
+            patches_without_a_view_are_one_element, units_do_not_matter,
+            the_order_does_not_enter);
   ADD_TESTS("refusals", what_has_no_law_is_refused, it_can_be_stopped);
 }
