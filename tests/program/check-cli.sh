@@ -141,6 +141,7 @@ done
 hr2d --help >"$work/help"
 check "'-h'" same_help -h
 check "'help'" same_help help
+check "'help help'" same_help help help
 check "helps of commands differ" lacks 'For example' "$work/help"
 succeeds --version
 check "version is printed" grep -q '^hr2d [0-9][0-9]*\.[0-9][0-9]*\.[0-9]' "$work/out"

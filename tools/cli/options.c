@@ -108,8 +108,8 @@ static int read_command(const char *word, options *o) {
                 : complain_usage("unknown command '%s'", word);
 }
 
-/* help, with or without a command, and options before any command; getopt sees only the words
-   after one. */
+/* help, with or without a command, of which help is one, and options before any command; getopt
+   sees only the words after one. */
 static int read_bare(int argc, char **argv, options *o) {
   if (argc < 2) return complain_usage("no command given");
   const char *word = argv[1];
@@ -119,7 +119,7 @@ static int read_bare(int argc, char **argv, options *o) {
   o->version = !strcmp(word, "--version");
   if (!o->help && !o->version) return complain_usage("expected a command before '%s'", word);
   if (argc > 2 + asks) return complain_usage("'%s' is one argument too many", argv[2 + asks]);
-  return argc > 2 ? read_command(argv[2], o) : 0;
+  return argc > 2 && strcmp(argv[2], "help") ? read_command(argv[2], o) : 0;
 }
 
 static options make_defaults(void) {
