@@ -29,8 +29,8 @@
 #define BRIGHTEST 0.995
 #define DECADES   4.0
 
-/* More tiles are an image in SVG and PDF, too, whose memory and size would have no bound. */
-enum { MOST_VECTORS = 200000 };
+/* More links are an image in SVG and PDF, too: a tile takes 0.5 kB of an SVG. */
+enum { MOST_VECTORS = 20000 };
 
 /* An interval of an axis. */
 typedef struct span {
