@@ -127,10 +127,12 @@ typedef struct hr2d_study_constants {
  *                           integral in a corner
  * @retval other             the status of the progress callback
  *
- * The outer integrals are over the exact views of points of each patch. Their estimated errors
- * are some 1e-7 of the factors. Cost: some hundred views of each patch, more where views
- * change, and O(n²) to find corners. `l1` integrates along each part that is seen, at some 10
- * µs: a second for some patches and a screen, but minutes for hundreds of occluders.
+ * The outer integrals are over the exact views of points of each patch. Estimated errors are
+ * below 1e-7 of the factors for `size` and `size2`, and some 1e-6 for `l1`. Cost: some hundred
+ * views of each patch, some thousand where views change often, and O(n²) to find corners: 9
+ * seconds for 100 patches that hide each other, and four times as much for twice as many. `l1`
+ * integrates along each part that is seen, at some 10 µs: a second for some patches and a
+ * screen, but minutes for a hundred occluders.
  */
 HR2D_API hr2d_status hr2d_study_law(hr2d_linkset *links, const hr2d_refine_options *options,
                                     hr2d_study_constants *constants);
