@@ -154,7 +154,8 @@ hr2d_status hr2di_geojson_load(const char *text, size_t size, json_t **root,
   *root = NULL;
   if (watch->status) return watch->status;
   if (o.start == last || (*o.start != '{' && *o.start != '['))
-    return fail_at(message, text, o.start, "'[' or '{' expected");
+    return fail_at(message, text, o.start,
+                   o.start == last ? "there is no text" : "'[' or '{' expected");
   source s = {.next = text,
               .end = o.end ? o.end : last,
               .pad = pad_for(o.longest),

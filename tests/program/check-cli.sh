@@ -162,7 +162,7 @@ from_stdin() {
     hr2d solve "$far" --eps 0.1 --csv - --quiet | cmp -s - "$work/read"
 }
 check "- is standard input" from_stdin
-expect 1 "^hr2d: /dev/stdin: ." info -
+expect 1 "^hr2d: /dev/stdin: line 1, column 1: there is no text" info -
 usage "SCENE and --points cannot both be standard input" field - --points -
 
 # ---- info

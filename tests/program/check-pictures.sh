@@ -253,6 +253,13 @@ sed 1d "$work/square" >"$work/less"
 check "without a tile it is not" asymmetric "$work/less"
 
 # So many that no program would open a page of them: they are an image.
+printf '{"type": "FeatureCollection", "features": [%s, %s]}' \
+  '{"type": "Feature", "properties": {}, "geometry": {"type": "LineString", "coordinates": [[0, 0], [1, 0]]}}' \
+  '{"type": "Feature", "properties": {}, "geometry": {"type": "LineString", "coordinates": [[0, -1], [1, -1]]}}' \
+  >"$work/apart.geojson"
+succeeds solve "$work/apart.geojson" --quiet --no-error --tiles "$work/apart.svg"
+check "no link, no scale of kernels" lacks linearGradient "$work/apart.svg"
+check "which there is with links" grep -q linearGradient "$work/rectangle.svg"
 succeeds solve "$scenes/par-near.geojson" --quiet --no-error --eps 0.05 --tiles "$work/many.svg"
 check "many tiles are XML" is_xml "$work/many.svg"
 check "they are an image" grep -q '<image' "$work/many.svg"

@@ -333,7 +333,7 @@ static int draw_page(picture *p) {
   const int status = tiles_draw(p);
   write_names(p, &p->tiling.columns, 0);
   write_names(p, &p->tiling.rows, 1);
-  legend_draw_scale(p);
+  if (p->tiling.links->count) legend_draw_scale(p); /* without a kernel there is no scale */
   return status;
 }
 
