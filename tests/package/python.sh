@@ -7,8 +7,8 @@ libraries=$HR2D_BUILDDIR/.libs
 # setuptools comes first: it refuses to follow distutils, which numpy imports.
 modules='setuptools, wheel, pip, cffi, numpy, scipy, matplotlib, pytest'
 
-# find_python: $python is the first interpreter that has all modules; another python3 may come first in
-# PATH.  Ends the test where there is none, or no shared library that it can load: one with a sanitizer,
+# find_python: $python is the path of the first interpreter that has all modules; another python3 may
+# come first in PATH.  Ends the test where there is none, or no shared library that it can load: one with a sanitizer,
 # or of another architecture.
 find_python() {
   if [ ! -e "$libraries/libhr2d.so" ]; then
@@ -24,6 +24,7 @@ find_python() {
     [ -z "${CI-}" ] || exit 1
     exit 77
   fi
+  python=$(command -v "$python")
   if ! "$python" -c "import ctypes; ctypes.CDLL('$libraries/libhr2d.so')"; then
     echo "$python cannot load the library: not tested" >&2
     exit 77
