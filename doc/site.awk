@@ -5,7 +5,8 @@
 # Pages are written for a plain forge view: links are paths from the page, with #heading behind.
 # Here headings get labels, and links of pages, headers and examples become references to these.
 # A table of doc/figures gets a title.
-# A link to anything else in the tree becomes plain text.  Lines keep their numbers.
+# A link to anything else in the tree becomes plain text.  Doxygen finds pictures by their names.
+# Lines keep their numbers.
 
 # What replaces [text](target).
 function link(text, target,    path, part, name) {
@@ -33,11 +34,12 @@ function rewrite(text,    done, found, cut) {
     found = substr(text, RSTART, RLENGTH)
     cut = index(found, "](")
     done = done substr(text, 1, RSTART - 1)
-    if (done ~ /!$/)
-      done = done found
-    else
-      done = done link(substr(found, 2, cut - 2), substr(found, cut + 2, length(found) - cut - 2))
     text = substr(text, RSTART + RLENGTH)
+    if (done ~ /!$/) {
+      sub(/\]\([^()]*\//, "](", found)
+      done = done found
+    } else
+      done = done link(substr(found, 2, cut - 2), substr(found, cut + 2, length(found) - cut - 2))
   }
   text = done text
   # Doxygen 1.9 does not see what is strong and begins or ends with code.
