@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "refine/law-demand.h"
 
+#include <gsl/gsl_math.h>
 #include <math.h>
 
 #include "geometry/vector.h"
 #include "scene/scene-impl.h"
-
-#define LN2 0.69314718055994530942
 
 int hr2di_law_rule_find(const hr2d_oracle *oracle, const hr2d_policy *policy,
                         hr2di_law_rule *rule) {
@@ -105,21 +104,21 @@ hr2di_law_demand hr2di_law_demand_edge(const hr2di_law_rule *rule, const hr2di_l
 
 double hr2di_law_links(const hr2di_law_rule *rule, const hr2di_law_pair *pair,
                        hr2di_law_demand d) {
-  if (rule->modified) return 1.5 / LN2 * d.x * d.y;
-  return 0.5 / LN2 * (pair->ratio * d.x * d.x + 2 / pair->ratio * d.y * d.y);
+  if (rule->modified) return 1.5 / M_LN2 * d.x * d.y;
+  return 0.5 / M_LN2 * (pair->ratio * d.x * d.x + 2 / pair->ratio * d.y * d.y);
 }
 
 double hr2di_law_halves_links(const hr2di_law_rule *rule, const hr2di_law_pair *pair) {
-  return rule->l1 || rule->modified || pair->ratio != 1 ? 0 : -0.25 / LN2;
+  return rule->l1 || rule->modified || pair->ratio != 1 ? 0 : -0.25 / M_LN2;
 }
 
 hr2di_law_edge hr2di_law_edge_links(const hr2di_law_rule *rule, const hr2di_law_pair *pair,
                                     hr2di_law_demand edge, hr2di_law_demand clear) {
-  if (rule->modified) return (hr2di_law_edge){2 / LN2 * edge.x, -1.5 / LN2 * clear.x};
-  return (hr2di_law_edge){(edge.x + edge.y / pair->ratio) / LN2,
-                          -(0.5 * clear.x + clear.y / pair->ratio) / LN2};
+  if (rule->modified) return (hr2di_law_edge){2 / M_LN2 * edge.x, -1.5 / M_LN2 * clear.x};
+  return (hr2di_law_edge){(edge.x + edge.y / pair->ratio) / M_LN2,
+                          -(0.5 * clear.x + clear.y / pair->ratio) / M_LN2};
 }
 
 double hr2di_law_horizon_links(hr2di_law_demand clear) {
-  return 0.5 / LN2 * clear.x;
+  return 0.5 / M_LN2 * clear.x;
 }

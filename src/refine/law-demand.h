@@ -22,8 +22,8 @@ typedef struct hr2di_law_rule {
   int l1;       /* otherwise max(A, B)/r */
   int modified; /* otherwise original */
   double power; /* 1/n, of ε in the demand of points that see each other */
-  double
-      edge_power; /* the same where something bounds the view: oracles raise their estimate */
+  /* The same where something bounds the view: oracles raise their estimate. */
+  double edge_power;
 } hr2di_law_rule;
 
 /* Returns 0, or -1: there is no law of them. */

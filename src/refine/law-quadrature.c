@@ -53,15 +53,14 @@ static int enough(const hr2di_law_integral *integral, const interval *s, const d
 }
 
 /* The integrals of all functions by the first intervals. */
-static void set_scale(nodes *n, double low, double step, double *scale) {
-  const hr2di_law_integral *integral = n->integral;
+static void set_scale(const hr2di_law_integral *integral, const interval *first,
+                      double *scale) {
   double largest = 0;
-  for (size_t k = 0; k < HR2DI_LAW_PARTS; k++) scale[k] = 0;
-  for (size_t j = 0; j < integral->pieces; j++) {
-    const interval s = measure(n, low + (double)j * step, low + (double)(j + 1) * step);
-    for (size_t k = 0; k < integral->parts; k++) scale[k] += fabs(s.value[k]);
+  for (size_t k = 0; k < integral->parts; k++) {
+    scale[k] = 0;
+    for (size_t j = 0; j < integral->pieces; j++) scale[k] += fabs(first[j].value[k]);
+    largest = fmax(largest, scale[k]);
   }
-  for (size_t k = 0; k < integral->parts; k++) largest = fmax(largest, scale[k]);
   for (size_t k = 0; k < integral->parts; k++) scale[k] = fmax(scale[k], NEGLIGIBLE * largest);
 }
 
@@ -91,12 +90,14 @@ static void refine(nodes *n, interval whole, const double *scale, size_t *left, 
 hr2d_status hr2di_law_integrate(const hr2di_law_integral *integral, double low, double high,
                                 double *sum, double *error) {
   nodes n = {.integral = integral};
+  interval first[HR2DI_LAW_PIECES];
   double scale[HR2DI_LAW_PARTS];
   size_t left = integral->most;
   const double step = (high - low) / (double)integral->pieces;
-  set_scale(&n, low, step, scale);
+  for (size_t j = 0; j < integral->pieces; j++)
+    first[j] = measure(&n, low + (double)j * step, low + (double)(j + 1) * step);
+  set_scale(integral, first, scale);
   for (size_t j = 0; j < integral->pieces && !n.status; j++)
-    refine(&n, measure(&n, low + (double)j * step, low + (double)(j + 1) * step), scale, &left,
-           sum, error);
+    refine(&n, first[j], scale, &left, sum, error);
   return n.status;
 }

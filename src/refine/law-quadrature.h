@@ -6,7 +6,7 @@
 #include <hr2d/status.h>
 #include <stddef.h>
 
-enum { HR2DI_LAW_PARTS = 5 /* functions at most */ };
+enum { HR2DI_LAW_PARTS = 5 /* functions at most */, HR2DI_LAW_PIECES = 8 };
 
 /* Writes the functions at t.  A status other than HR2D_OK ends the quadrature. */
 typedef hr2d_status (*hr2di_law_fn)(void *ctx, double t, double *value);
@@ -15,7 +15,7 @@ typedef struct hr2di_law_integral {
   hr2di_law_fn at;
   void *ctx;
   size_t parts;     /* the number of functions */
-  size_t pieces;    /* of equal length, to begin with */
+  size_t pieces;    /* of equal length, to begin with; up to HR2DI_LAW_PIECES */
   size_t most;      /* bisections, where the tolerance is out of reach */
   double tolerance; /* of one interval, relative to the integral of the function */
 } hr2di_law_integral;

@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "refine/law-view.h"
 
+#include <gsl/gsl_math.h>
 #include <math.h>
 
 #include "geometry/vector.h"
 #include "scene/scene-impl.h"
-
-#define LN2 0.69314718055994530942
 
 /* Fractions of a patch are known to 1e-15. */
 #define END 1e-13
@@ -197,8 +196,8 @@ hr2d_status hr2di_law_view_at(void *ctx, double u, double *value) {
   /* A leaf satisfies all demands; the larger power of 1/ε wins. */
   if (view->rule->edge_power > view->rule->power && edge > 0) clear = 0;
   if (view->rule->edge_power == view->rule->power) clear = fmax(clear, edge), edge = 0;
-  value[HR2DI_LAW_ELEMENTS] = 2 / LN2 * clear;
-  value[HR2DI_LAW_EDGE_ELEMENTS] = 2 / LN2 * edge;
+  value[HR2DI_LAW_ELEMENTS] = 2 / M_LN2 * clear;
+  value[HR2DI_LAW_EDGE_ELEMENTS] = 2 / M_LN2 * edge;
   for (size_t k = 0; k < HR2DI_LAW_PARTS; k++) value[k] *= length;
   return status;
 }

@@ -11,10 +11,7 @@
 /* Of one interval of a patch; errors are mostly below ten times this. */
 #define TOLERANCE 1e-8
 
-enum {
-  PIECES = 8, /* of a patch, to begin with */
-  BISECTIONS = 1000
-};
+enum { BISECTIONS = 1000 };
 
 typedef struct law {
   hr2d_linkset *links;
@@ -56,7 +53,7 @@ static hr2d_status integrate(law *l) {
   const hr2di_law_integral integral = {.at = hr2di_law_view_at,
                                        .ctx = &l->view,
                                        .parts = HR2DI_LAW_PARTS,
-                                       .pieces = PIECES,
+                                       .pieces = HR2DI_LAW_PIECES,
                                        .most = BISECTIONS,
                                        .tolerance = inner_tolerance(l) + TOLERANCE};
   hr2d_status status = HR2D_OK;
