@@ -24,8 +24,8 @@ enum {
   NOT_WITH_TARGET = 1, /* nor with a time budget */
   ONLY_WITH_TARGET = 2,
   NOT_WITH_PREDICT = 4,
-  NOT_WITH_EXPONENTS = 16,
-  IS_OUTPUT = 8 /* a file that the program writes; no other output goes there */
+  NOT_WITH_EXPONENTS = 8,
+  IS_OUTPUT = 16 /* a file that the program writes; no other output goes there */
 };
 
 /* The help of an option for some commands: one or more lines, or NULL if --help does not list

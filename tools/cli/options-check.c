@@ -39,9 +39,6 @@ static int check_inputs(const options *o, const char *file, const char *name) {
 static int check_outputs(const options *o) {
   const option_entry *x, *y;
   int status = 0;
-  if (o->points && output_is_stdout(o->points) && o->scene &&
-      output_is_same("/dev/stdin", o->scene))
-    return complain_usage("SCENE and --points cannot both be standard input");
   for (size_t i = 0; (x = option_at(i)) && !status; i++) {
     const char *file = output_of(o, x);
     if (file) status = check_inputs(o, file, x->name);
@@ -71,14 +68,15 @@ static int check_target(const options *o, const given_options *given) {
   return 0;
 }
 
-static int check_predict(const options *o, const given_options *given) {
-  const char *measured = first_given(given, NOT_WITH_PREDICT);
-  const char *chosen = first_given(given, NOT_WITH_EXPONENTS);
-  if (o->exponents && chosen)
-    return complain_usage("--exponents and --%s exclude each other", chosen);
-  return o->predict && measured
-             ? complain_usage("--predict and --%s exclude each other", measured)
-             : 0;
+/* Questions of `cost` that take the place of its comparison. */
+static int check_cost(const options *o, const given_options *given) {
+  const char *with_predict = o->predict ? first_given(given, NOT_WITH_PREDICT) : NULL;
+  const char *with_exponents = o->exponents ? first_given(given, NOT_WITH_EXPONENTS) : NULL;
+  if (with_predict)
+    return complain_usage("--predict and --%s exclude each other", with_predict);
+  if (with_exponents)
+    return complain_usage("--exponents and --%s exclude each other", with_exponents);
+  return 0;
 }
 
 static int check_needs(const given_options *given) {
@@ -118,7 +116,7 @@ static int check_picture(const options *o) {
 int options_check(const options *o, const given_options *given) {
   int status = check_outputs(o);
   if (!status) status = check_target(o, given);
-  if (!status) status = check_predict(o, given);
+  if (!status) status = check_cost(o, given);
   if (!status) status = check_needs(given);
   if (!status) status = check_parents(o);
   if (!status) status = check_picture(o);
@@ -128,6 +126,8 @@ int options_check(const options *o, const given_options *given) {
   if (o->multigrid.ratio > 0 && o->multigrid.from <= o->epsilon)
     return complain_usage("--multigrid: %g is not greater than --eps %g", o->multigrid.from,
                           o->epsilon);
+  if (o->points && output_is_stdout(o->points) && output_is_same(OPTIONS_STDIN, o->scene))
+    return complain_usage("SCENE and --points cannot both be standard input");
   if (o->points && (o->grid.columns || o->box.given || o->vtk || o->tolerance > 0))
     return complain_usage("--points excludes --grid, --box, --tolerance and --vtk");
   if (o->from > 0 && o->to >= o->from)

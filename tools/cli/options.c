@@ -12,9 +12,6 @@
 #include "cli/suggest.h"
 #include "output/complain.h"
 
-/* As a file, where SCENE is -. */
-#define STANDARD_INPUT "/dev/stdin"
-
 /* For getopt_long() an option is the number FIRST + k, beyond those of characters. */
 enum { FIRST = 256 };
 
@@ -88,7 +85,7 @@ static int read_arguments(int argc, char **argv, options *o) {
   if (argc - optind < wanted) return complain_usage("'%s' needs a SCENE file", argv[0]);
   if (argc - optind > wanted)
     return complain_usage("'%s' is one argument too many", argv[optind + wanted]);
-  if (wanted) o->scene = strcmp(argv[optind], "-") ? argv[optind] : STANDARD_INPUT;
+  if (wanted) o->scene = strcmp(argv[optind], "-") ? argv[optind] : OPTIONS_STDIN;
   return 0;
 }
 

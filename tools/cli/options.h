@@ -82,11 +82,14 @@ enum { BAND_DEFAULT = -3, BAND_RGB = -2, BAND_ALL = -1 };
 /* As link_level: --link-level is not given. */
 #define NO_LEVEL UINT_MAX
 
+/* The file of a SCENE that is -. */
+#define OPTIONS_STDIN "/dev/stdin"
+
 typedef struct options {
   int command;
   int help, version, quiet;
   int no_closure;
-  const char *scene; /* file name, /dev/stdin for -; NULL for `pair` */
+  const char *scene; /* file name; NULL for `pair` */
   int split_crossings, strict;
   double snap;    /* a tolerance; 0: not given */
   unsigned force; /* bit 1 << e for each effect e */
