@@ -42,7 +42,7 @@ hr2d_mpi_CPPFLAGS = -D_POSIX_C_SOURCE=200809L -DPROGRAM_NAME='"hr2d-mpi"' $(PUBL
 	-I$(srcdir)/petsc/include -I$(srcdir)/petsc/program -I$(srcdir)/tools $(PETSC_CFLAGS) \
 	$(GSL_CFLAGS) $(JANSSON_CFLAGS) $(CAIRO_CFLAGS)
 hr2d_mpi_LDADD = libhr2d-petsc.la libhr2d.la $(PETSC_LIBS) $(MPI_LIBS) $(GSL_LIBS) \
-	$(JANSSON_LIBS) $(CAIRO_LIBS) -lm
+	$(JANSSON_LIBS) $(DRAW_LIBS) -lm
 hr2d_mpi_SOURCES = $(SOLVE_SOURCES) \
 	petsc/program/main.c petsc/program/program.h \
 	petsc/program/report.c \

@@ -2,7 +2,7 @@
 bin_PROGRAMS += tools/hr2d
 tools_hr2d_CPPFLAGS = -D_POSIX_C_SOURCE=200809L $(PUBLIC_CPPFLAGS) -I$(srcdir)/tools \
 	$(GSL_CFLAGS) $(JANSSON_CFLAGS) $(CAIRO_CFLAGS)
-tools_hr2d_LDADD = libhr2d.la $(GSL_LIBS) $(JANSSON_LIBS) $(CAIRO_LIBS) -lm
+tools_hr2d_LDADD = libhr2d.la $(GSL_LIBS) $(JANSSON_LIBS) $(DRAW_LIBS) -lm
 # What `hr2d solve` and hr2d-mpi have in common.
 SOLVE_SOURCES = \
 	tools/output/apng.c tools/output/apng.h \
@@ -37,6 +37,7 @@ SOLVE_SOURCES = \
 	tools/draw/arrows.c \
 	tools/draw/bands.c \
 	tools/draw/beams.c \
+	tools/draw/cairo-late.c tools/draw/cairo-late.h \
 	tools/draw/contour-labels.c \
 	tools/draw/contours.c \
 	tools/draw/draw.c tools/draw/draw.h \

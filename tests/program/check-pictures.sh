@@ -67,6 +67,21 @@ usage "true colour needs a scene of 3 bands, and this one has 1" field "$black" 
   --draw "$work/no.svg" --band rgb
 usage "--band: the scene has no band 3, only 0 to 2" field "$furnace" --draw "$work/no.svg" --band 3
 
+# ---- cairo is loaded for a picture, and for nothing else
+if grep -q '^#define HAVE_LATE_CAIRO 1' "$HR2D_BUILDDIR/config.h"; then
+  mkdir "$work/lib"
+  echo "no library" >"$work/lib/libcairo.so.2"
+  libraries=${LD_LIBRARY_PATH-}
+  export LD_LIBRARY_PATH="$work/lib${libraries:+:$libraries}"
+  run solve "$black" --quiet --eps 4 --json "$work/late.json"
+  check "a solve does not need cairo" [ "$status" -eq 0 ]
+  run solve "$black" --quiet --eps 4 --draw "$work/late.svg"
+  check "a picture does" [ "$status" -eq 1 ]
+  check "and says so" grep -q 'late.svg: cannot be drawn without cairo: ' "$work/err"
+  check "and writes none" [ ! -e "$work/late.svg" ]
+  LD_LIBRARY_PATH=$libraries
+fi
+
 # ---- files are whole
 is_xml() {
   if command -v xmllint >/dev/null 2>&1; then

@@ -20,14 +20,15 @@ int draw_check_scene(const options *o, const hr2d_scene *scene) {
 #include <cairo-svg.h>
 #include <stdlib.h>
 
+#include "draw/cairo-late.h"
 #include "output/output.h"
 #include "output/suffix.h"
 
 #define PIXELS_PER_POINT 2.0
 
 int draw_check(const char *path) {
-  (void)path;
-  return EXIT_DONE;
+  const char *trouble = path ? cairo_late_load() : NULL;
+  return trouble ? complain(path, "cannot be drawn without cairo: %s", trouble) : EXIT_DONE;
 }
 
 static cairo_status_t write_bytes(void *stream, const unsigned char *bytes, unsigned size) {

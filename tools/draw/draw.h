@@ -5,8 +5,8 @@
 
 #include "run/run.h"
 
-/* Whether this program can draw: it may be built without cairo.  Returns 0, also for NULL, or
-   EXIT_FAILED after an error message. */
+/* Whether this program can draw: it may be built without cairo, and loads it here.  Returns 0,
+   also for NULL, or EXIT_FAILED after an error message.  Called before anything is drawn. */
 int draw_check(const char *path);
 
 /* Whether the scene has the bands that a picture is to show.  Returns 0, or EXIT_USAGE after an
