@@ -209,6 +209,7 @@ libhr2d_core_la_SOURCES = \
 	src/solution/solution.c \
 	src/solution/solution-impl.h \
 	src/solution/wedge-limit.c \
+	src/field/above-plane.c src/field/above-plane.h \
 	src/field/border-map.c src/field/border-map.h \
 	src/field/borders.c src/field/borders.h \
 	src/field/field-at.c src/field/field-at.h \
@@ -217,12 +218,14 @@ libhr2d_core_la_SOURCES = \
 	src/field/field-rows.c \
 	src/field/field-team.c \
 	src/field/field-tile.c src/field/field-tile.h \
+	src/field/irradiance.c \
 	src/field/leaf-errors.c src/field/leaf-errors.h \
 	src/field/leaves.c src/field/leaves.h \
 	src/field/light.c src/field/light.h \
 	src/field/locate.c src/field/locate.h \
 	src/field/past-ends.c src/field/past-ends.h \
 	src/field/visibility-polygon.c src/field/visibility-polygon.h \
+	src/field/look.c src/field/look.h \
 	src/field/offset-viewpoint.c \
 	src/refine/count.c \
 	src/refine/law-demand.c src/refine/law-demand.h \

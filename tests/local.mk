@@ -77,6 +77,7 @@ SUITES = \
 	tests/unit/field/check-field.c \
 	tests/unit/field/check-field-rows.c \
 	tests/unit/field/check-field-errors.c \
+	tests/unit/field/check-field-irradiance.c \
 	tests/unit/field/check-past-ends.c \
 	tests/unit/solve/check-solve.c \
 	tests/unit/solve/check-background.c \

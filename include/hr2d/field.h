@@ -21,23 +21,25 @@
  *
  * The last two are parts of all directions. In a furnace with B = 1, M is 1 and Φ is 0.
  *
- * H(n) = ∫ (B/2) n·ω dω over n·ω > 0 is the irradiance of a line through x with normal n, and
- * n·Φ = H(n) − H(−n). If E is in W/m², σT⁴ = M gives the mean radiant temperature T.
+ * H(n) = ∫ (B/2) n·ω dω over n·ω > 0 is the irradiance of a small plane at x with normal n, as
+ * of a sensor or a panel that hides no light: hr2d_field_values::irradiance. A sun adds
+ * I max(0, −n·d/|d|). n·Φ = H(n) − H(−n). If E is in W/m², σT⁴ = M gives the mean radiant
+ * temperature T.
  *
  * **Exactness.** Visibility is exact, and so are the integrals over the B_h of a solution, as
  * hr2d_solution_at() has it. The error of M is some 1e-15 of the largest B. At distance d from
  * an end of a leaf, in units of hr2d_scene_unit(), 1e-16/d times the jump of B_h there is
- * added. Φ has π times as much. The error of B_h comes on top. If |B_h − B| ≤ e_j on patch j,
- * and x sees j in the part s_j of all directions, then
+ * added. Φ and H(n) have π times as much. The error of B_h comes on top. If |B_h − B| ≤ e_j on
+ * patch j, and x sees j in the part s_j of all directions, then
  *
- *     |δM| ≤ Σ s_j e_j   and   |δΦ| ≤ π Σ s_j e_j,
+ *     |δM| ≤ Σ s_j e_j,   |δΦ| ≤ π Σ s_j e_j   and   |δH(n)| ≤ π Σ s_j(n) e_j
  *
- * which hr2d_field_values::error receives if hr2d_field_options::patch_error has the e_j. With
- * one e for all patches this is at most e times the part of all directions in which fronts are.
- * With hr2d_field_options::account the e are found for each leaf instead: twice the difference
- * of B_h from B' at some points of the leaf (hr2d_solution_gather()), plus the account's bound
- * of the error of B'. That B' is no farther from B_h between these points is tested, not
- * proved.
+ * with the part s_j(n) that is above the plane, which hr2d_field_values::error receives if
+ * hr2d_field_options::patch_error has the e_j. With one e for all patches this is at most e
+ * times the part of all directions in which fronts are. With hr2d_field_options::account the e
+ * are found for each leaf instead: twice the difference of B_h from B' at some points of the
+ * leaf (hr2d_solution_gather()), plus the account's bound of the error of B'. That B' is no
+ * farther from B_h between these points is tested, not proved.
  *
  * In a scene with a period, light from beyond the images is extrapolated: see symmetry.h.
  *
@@ -92,11 +94,14 @@ typedef struct hr2d_field_options {
                                     hr2d_field_values::error, if it is wanted and without
                                     `patch_error`, is then measured, in the time of p + 3
                                     gathers for each leaf. Only read; NULL: none */
+  const hr2d_point *normal;    /**< normals of planes of any tilt, of any length but 0, for
+                                    hr2d_field_values::irradiance; only read */
+  size_t normals; /**< how many: 0 or 1, one for all points; or one for each point */
 } hr2d_field_options;
 
-/** The defaults: one thread, no callback, no errors. */
+/** The defaults: one thread, no callback, no errors, no planes. */
 #define HR2D_FIELD_OPTIONS_INIT                                                                \
-  { sizeof(hr2d_field_options), 0, NULL, NULL, NULL, NULL }
+  { sizeof(hr2d_field_options), 0, NULL, NULL, NULL, NULL, NULL, 0 }
 
 /**
  * Does what #HR2D_FIELD_OPTIONS_INIT does, for languages without macros: sets all bytes to 0,
@@ -119,11 +124,15 @@ typedef struct hr2d_field_values {
   unsigned char *place; /**< receives an #hr2d_place each, points */
   double *cut_off;      /**< receives the part of all directions past the ends of a period,
                              points; 0 without one. symmetry.h has its accuracy */
+  double *irradiance;   /**< receives H(n) with hr2d_field_options::normal, points × bands, at
+                             the cost of a second view from each point */
+  double
+      *irradiance_error; /**< receives the bound of |δH(n)|, points × bands; NaN as `error` */
 } hr2d_field_values;
 
 /** Nothing is wanted. */
 #define HR2D_FIELD_VALUES_INIT                                                                 \
-  { sizeof(hr2d_field_values), NULL, NULL, NULL, NULL, NULL, NULL, NULL }
+  { sizeof(hr2d_field_values), NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL }
 
 /**
  * The field at points.
@@ -134,7 +143,8 @@ typedef struct hr2d_field_values {
  * @param values    what is wanted; the arrays are undefined on failure
  * @retval HR2D_OK      success
  * @retval HR2D_ENOMEM  an allocation failed
- * @retval HR2D_EINVAL  a coordinate is not finite, or a `struct_size` is too small
+ * @retval HR2D_EINVAL  a coordinate is not finite, irradiances are wanted without normals, a
+ *                      normal is 0, or a `struct_size` is too small
  * @retval HR2D_ESCENE  the scene has no effect of occlusion, and so many patches cross each
  *                      other within roundings that the plane between them is unknown
  * @retval other        the status of the progress callback
@@ -180,7 +190,8 @@ typedef struct hr2d_field_counts {
  * @param values    what is wanted; the arrays are undefined on failure
  * @param counts    receives the work; may be NULL
  * @retval HR2D_EINVAL  a coordinate is not finite, there is no row or column or there are too
- *                      many, the tolerance is not in [0,1], or a `struct_size` is too small
+ *                      many, the tolerance is not in [0,1], irradiances are wanted with a
+ *                      tolerance or without normals, or a `struct_size` is too small
  * @return otherwise as hr2d_field_at()
  *
  * The range of M is its largest value minus its least one on each 16th node of each 16th row,

@@ -94,6 +94,10 @@ class Field(NamedTuple):
     error: np.ndarray
     """A bound of the error of `mean`, (…, bands), that of `flux` is π times as large; NaN unless
     it was asked for."""
+    irradiance: np.ndarray
+    """H(n) = ∫ (B/2) n·ω dω over n·ω > 0, (…, bands): of planes with the normals; NaN without."""
+    irradiance_error: np.ndarray
+    """A bound of its error, (…, bands); NaN unless it was asked for."""
 
 
 @dataclass(frozen=True)
@@ -239,30 +243,41 @@ class Solution:
         # B' = E + ρ H' is what hr2d_solution_gather() would gather again.
         return Points(self.scene.emission[index] + self.scene.reflectance[index] * H, H)
 
-    def field(self, points: Any, *, errors: bool = False, threads: Any = 1,
-              progress: Optional[ProgressFunction] = None) -> Field:
+    def field(self, points: Any, *, normals: Any = None, errors: bool = False,
+              threads: Any = 1, progress: Optional[ProgressFunction] = None) -> Field:
         """The light at points of the plane, with exact visibility.
 
         `points` are x and y, in any shape: `np.mgrid[0:5:200j, 0:3:100j]`, or two arrays.
+        `normals` are x and y of the normals of planes there, of any length: two numbers, or
+        arrays of the shape of the points.  The planes are sensors or panels of any tilt, which
+        hide no light, and get an irradiance.
         With `errors` those of the values are measured, in the time of some gathers for each
         leaf element.  They follow from the errors at points; if solve() was not asked for
         these, they are measured first, which takes longer than the solve.
         """
-        x, y = np.broadcast_arrays(*np.asarray(points, dtype=np.float64))
+        x, y = np.broadcast_arrays(*(np.asarray(c, dtype=np.float64) for c in points))
         at = np.stack([x.ravel(), y.ravel()], axis=1)
         bands = self.scene.bands
         f = Field(np.empty((*x.shape, bands)), np.empty((*x.shape, bands, 2)),
                   np.empty(x.shape), np.empty(x.shape, np.uint8), np.empty(x.shape),
-                  np.full((*x.shape, bands), np.nan))
+                  *np.full((3, *x.shape, bands), np.nan))
+        normal = np.empty((0, 2))
+        if normals is not None:
+            nx, ny = (np.broadcast_to(np.asarray(n, dtype=np.float64), x.shape) for n in normals)
+            normal = np.stack([nx.ravel(), ny.ravel()], axis=1)
         values = ffi.new("hr2d_field_values *", {
             "struct_size": ffi.sizeof("hr2d_field_values"), "mean": writable(f.mean),
             "flux": writable(f.flux), "sky": writable(f.sky),
             "cut_off": writable(f.cut_off),
             "error": writable(f.error) if errors else ffi.NULL,
+            "irradiance": writable(f.irradiance) if len(normal) else ffi.NULL,
+            "irradiance_error":
+                writable(f.irradiance_error) if errors and len(normal) else ffi.NULL,
             "place": ffi.cast("unsigned char *", ffi.from_buffer(f.place))})
         options = ffi.new("hr2d_field_options *", {
             "struct_size": ffi.sizeof("hr2d_field_options"), "threads": thread_count(threads),
-            "account": self._point_account if errors else ffi.NULL})
+            "account": self._point_account if errors else ffi.NULL,
+            "normal": ffi.cast("hr2d_point *", doubles(normal)), "normals": len(normal)})
         with Call(progress) as call:
             call.check(lib.hr2d_field_at(self._raw, ffi.cast("hr2d_point *", doubles(at)),
                                          len(at), options, values))

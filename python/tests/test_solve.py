@@ -88,6 +88,24 @@ def test_the_field_over_a_lamp():
     assert s.field(np.mgrid[0:1:4j, 1:2:3j]).flux.shape == (4, 3, 1, 2)
 
 
+def test_planes_over_a_lamp():
+    """A level plane sees the lamp from below; one that is tilted by t sees sin of the ends."""
+    scene = hr2d.Scene()
+    scene.add([(0, 0), (1, 0)], emission=1)
+    s, h = scene.solve(), np.array([.5, 1, 2])
+    end = np.arctan(.5 / h)
+    down = s.field((.5, h), normals=(0, -1), errors=True)
+    assert down.irradiance[:, 0] == pytest.approx(np.sin(end), rel=1e-12)
+    assert (down.irradiance_error >= 0).all()
+    assert s.field((.5, h), normals=(0, 7)).irradiance[:, 0] == pytest.approx(0, abs=1e-15)
+    tilt = np.array([.1, .2, .3])
+    f = s.field((.5, h), normals=(np.sin(tilt), -np.cos(tilt)))
+    assert f.irradiance[:, 0] == pytest.approx(np.sin(end) * np.cos(tilt), rel=1e-12)
+    assert np.isnan(f.irradiance_error).all() and np.isnan(s.field((.5, h)).irradiance).all()
+    with pytest.raises(ValueError):
+        s.field((.5, h), normals=(0, 0))
+
+
 @pytest.mark.parametrize("asked", [{}, {"points": True}, {"epsilon": .1}])
 def test_errors_of_a_field_are_measured_whatever_was_asked_for(plates, asked):
     s, at = plates.solve(**asked), [[.1, .5], [.5, .9]]

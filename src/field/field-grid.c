@@ -158,7 +158,10 @@ hr2d_status hr2d_field_on_grid(const hr2d_solution *solution, const hr2d_field_g
   hr2d_status status = hr2di_sized_copy(&c.grid, sizeof c.grid, grid);
   if (status || !is_valid(&c.grid)) return HR2D_EINVAL;
   c.each = HR2DI_NODE_LIGHT + 4 * c.bands;
-  status = hr2di_field_open(&c.f, solution, options, values);
+  status = hr2di_field_open(&c.f, solution, c.grid.columns * c.grid.rows, options, values);
+  /* Borders of the light above a plane are not those of the light all round. */
+  if (!status && c.grid.tolerance > 0 && (c.f.values.irradiance || c.f.values.irradiance_error))
+    status = HR2D_EINVAL;
   set_map(&c, &c.f.scene.scene);
   c.items = c.f.values.flux || c.f.values.error ? c.each : HR2DI_NODE_LIGHT + c.bands;
   if (!status) status = run(&c, &steps);

@@ -72,14 +72,20 @@ static double *support(const tile *t, const block *b, int k) {
   return node_of(t, column[k % 3], row[k / 3]);
 }
 
+/* Node (column,row) of the grid. */
+static hr2d_point place_of(const tile *t, int column, int row) {
+  const hr2di_grid_call *c = t->call;
+  return hr2di_field_scaled(c->f.source.scene, hr2di_grid_point(c, t->at[0] + (size_t)column,
+                                                                t->at[1] + (size_t)row));
+}
+
 static hr2d_status evaluate(tile *t, int column, int row) {
   const hr2di_grid_call *c = t->call;
   double *node = node_of(t, column, row);
   hr2di_field_look_at seen;
   if (node[HR2DI_NODE_KNOWN] > 0) return HR2D_OK;
-  const hr2d_point at = hr2di_grid_point(c, t->at[0] + (size_t)column, t->at[1] + (size_t)row);
-  const hr2d_point x = hr2di_field_scaled(c->f.source.scene, at);
-  const hr2d_status status = hr2di_field_look(t->worker, &c->f.source, x, &seen);
+  const hr2d_status status =
+      hr2di_field_look(t->worker, &c->f.source, place_of(t, column, row), &seen);
   node[HR2DI_NODE_KNOWN] = 1;
   node[HR2DI_NODE_PLACE] = seen.place;
   node[HR2DI_NODE_CLEARANCE] = seen.clearance;
@@ -264,10 +270,12 @@ static hr2d_status fill(tile *t, const block *whole) {
 }
 
 /* The nodes of a tile that are its own. */
-static void keep(tile *t) {
+static hr2d_status keep(tile *t) {
   const hr2di_grid_call *c = t->call;
-  for (int row = t->own_low[1]; row <= t->own_high[1]; row++)
-    for (int column = t->own_low[0]; column <= t->own_high[0]; column++) {
+  hr2d_status status = HR2D_OK;
+  for (int row = t->own_low[1]; row <= t->own_high[1] && !status; row++)
+    for (int column = t->own_low[0]; column <= t->own_high[0] && !status; column++) {
+      const size_t k = (t->at[1] + (size_t)row) * c->grid.columns + t->at[0] + (size_t)column;
       const double *node = node_of(t, column, row);
       const hr2di_field_look_at seen = {.mean = node + HR2DI_NODE_LIGHT,
                                         .flux = node + HR2DI_NODE_LIGHT + c->bands,
@@ -276,11 +284,12 @@ static void keep(tile *t) {
                                         .back = node[HR2DI_NODE_BACK],
                                         .cut_off = node[HR2DI_NODE_CUT_OFF],
                                         .place = (hr2d_place)node[HR2DI_NODE_PLACE]};
-      hr2di_field_keep(&c->f.values,
-                       (t->at[1] + (size_t)row) * c->grid.columns + t->at[0] + (size_t)column,
-                       c->bands, &seen);
+      hr2di_field_keep(&c->f.values, k, c->bands, &seen);
+      status =
+          hr2di_field_irradiance(t->worker, &c->f, place_of(t, column, row), seen.place, k);
       t->interpolated += node[HR2DI_NODE_KNOWN] < 0;
     }
+  return status;
 }
 
 /* Along a side with so many nodes; tile `number` of so many. */
@@ -313,7 +322,7 @@ hr2d_status hr2di_grid_tile(void *ctx, hr2di_field_worker *w, size_t task) {
   for (int row = t.own_low[1]; row <= t.own_high[1] && !status; row++)
     for (int column = t.own_low[0]; column <= t.own_high[0] && !status; column++)
       if (node_of(&t, column, row)[HR2DI_NODE_KNOWN] == 0) status = evaluate(&t, column, row);
-  if (!status) keep(&t);
+  if (!status) status = keep(&t);
   atomic_fetch_add(&c->exact, t.exact);
   atomic_fetch_add(&c->interpolated, t.interpolated);
   return status;

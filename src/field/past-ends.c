@@ -24,6 +24,20 @@ void hr2di_far_view_init(hr2di_far_view *v, const hr2d_scene *scene, hr2d_point 
   }
 }
 
+double hr2di_far_angle(const hr2di_far_view *v) {
+  const hr2di_symmetry *all = &v->scene->symmetry;
+  double most = 0;
+  unsigned first =
+      1; /* the first image that counts, of which patches may begin a period before */
+  while (v->quadrants > 0 && first < all->copies && all->points.weight[first] == 0) first++;
+  for (int k = 0; k < v->quadrants; k++) {
+    const hr2di_quadrant *q = &v->quadrant[k];
+    const double distance = q->line - (all->copies - first + 2) * q->period;
+    most = fmax(most, atan2(fabs(q->border), fmax(distance, 0)));
+  }
+  return most;
+}
+
 hr2d_point hr2di_far_home(const hr2d_scene *scene, hr2d_point x) {
   const double unit = hr2d_scene_unit(scene);
   if (!scene->symmetry.motion || !scene->symmetry.by.periodic) return x;

@@ -28,6 +28,10 @@ typedef struct hr2di_far_view {
   int far; /* x is so far above or below the patches that no series holds */
 } hr2di_far_view;
 
+/* The angle with the period under which points see the images that the series takes, at most;
+   0 without a period. */
+double hr2di_far_angle(const hr2di_far_view *v);
+
 /* From x, scaled.  *far: x is so far from the patches that the series in 1/k do not hold yet.
  */
 void hr2di_far_view_init(hr2di_far_view *v, const hr2d_scene *scene, hr2d_point x);

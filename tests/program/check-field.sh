@@ -33,11 +33,45 @@ check "M is 1 in the order of the points" awk -F, '
 printf '0.5 0.5\n' >"$work/one"
 hr2d field "$furnace" --points - --csv - <"$work/one" >"$work/out"
 check "points of standard input" [ "$(wc -l <"$work/out")" -eq 2 ]
-for bad in '1' '1 2 3' '1 x' 'nan 1'; do
+for bad in '1' '1 2 3' '1 x' 'nan 1' '1 2 3 x' '1 2 3 4 5'; do
   echo "$bad" >"$work/bad"
   expect 1 'line 1: not two numbers' field "$furnace" --points "$work/bad"
 done
 expect 1 'cannot be opened' field "$furnace" --points "$work/none"
+
+# ---- planes: H is 1 in a furnace, and half a plane that sees black walls and a bright one
+printf '0.5 0.5 0 2\n0.25 0.75 -1 3\n-3 0.5 1 0\n' >"$work/planes"
+succeeds field "$furnace" --points "$work/planes" --csv "$work/planes.csv" --json "$work/planes.json" \
+  --target-error 1e-9
+check "the header has irradiance" \
+  grep -qx 'x,y,band,mean,flux_x,flux_y,sky,error,irradiance,irradiance_error' "$work/planes.csv"
+check "H is 1, and nothing outside" awk -F, '
+  NR == 2 || NR == 3 { good += ($9 - 1)^2 < 1e-18 && $10 > 0 && $10 < 1e-6 }
+  NR == 4 { good += $9 == "" && $10 == "" }
+  END { exit good != 3 }' "$work/planes.csv"
+check "JSON has it" [ "$(grep -c '"irradiance": \[' "$work/planes.json")" -eq 3 ]
+check "and the table" grep -q '^  *irradiance 1 to 1, error at most ' "$work/out"
+sed 's/"emission": 0.5/"emission": 0/; s/"reflectance": [0-9.]*/"reflectance": 0/g' "$furnace" >"$work/lamps"
+# From the middle each wall is seen under a right angle: the wall straight ahead gives sin 45°.
+for tilted in '0,1 1 0.75 0.25' '1,0 0.25 1 0' '0,-3 0 0.25 0.75'; do
+  # shellcheck disable=SC2086 # a normal, what is ahead, to the left and to the right
+  set -- $tilted
+  succeeds field "$work/lamps" --points "$work/one" --csv - --normal "$1"
+  check "$1 looks ahead" awk -F, -v ahead="$2" -v left="$3" -v right="$4" '
+    { is = $9; c = sqrt(.5) } END { h = ahead * c + (left + right) * (1 - c) / 2
+      exit !((is - h)^2 < 1e-24) }' "$work/out"
+done
+succeeds field "$work/lamps" --grid 3x2 --box .2,.2,.8,.8 --normal 1,1 --vtk "$work/planes.vti"
+check "VTK has it" grep -q 'Name="irradiance0"' "$work/planes.vti"
+printf '0 0 0 1\n1 1\n' >"$work/bad"
+expect 1 'line 2: some points have a normal, and some do not' field "$furnace" --points "$work/bad"
+printf '0 0 0 0\n' >"$work/bad"
+expect 1 'line 1: the normal is 0' field "$furnace" --points "$work/bad"
+usage "--normal is for points that have no normals" field "$furnace" --points "$work/planes" --normal 1,0
+usage "--normal and --tolerance exclude each other" field "$furnace" --normal 1,0 --tolerance .1
+for bad in 0,0 1 1,2,3 x,1; do
+  usage "--normal: not two numbers X,Y that are not both 0" field "$furnace" --normal $bad
+done
 
 # ---- a grid
 succeeds field "$furnace" --grid 5x3 --box 0.25,0.25,0.75,0.5 --csv "$work/grid.csv" \

@@ -52,8 +52,12 @@ field_sample field_sample_at(const hr2d_solution *solution, double x, double y) 
   ck_assert(mean && flux);
   field_sample f;
   const hr2d_point at = {x, y};
-  const hr2d_field_values values = {sizeof values, mean,    flux,     NULL,
-                                    &f.sky,        &f.back, &f.place, NULL};
+  const hr2d_field_values values = {.struct_size = sizeof values,
+                                    .mean = mean,
+                                    .flux = flux,
+                                    .sky = &f.sky,
+                                    .back = &f.back,
+                                    .place = &f.place};
   ck_assert_int_eq(hr2d_field_at(solution, &at, 1, NULL, &values), HR2D_OK);
   f.mean = mean[0];
   f.flux[0] = flux[0];

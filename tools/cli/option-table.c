@@ -135,7 +135,9 @@ static const option_entry table[] = {
   {"box", "X0,Y0,X1,Y1", GROUP_QUESTION, VALUE(box, box),
    .help = {{FIELD, "where the grid begins and ends (around all patches)"}}},
   {"points", "FILE|-", GROUP_QUESTION, VALUE(path, points),
-   .help = {{FIELD, "instead of a grid, lines \"x y\"; - is standard input"}}},
+   .help = {{FIELD, "instead of a grid, lines \"x y\" or \"x y nx ny\"; or -"}}},
+  {"normal", "X,Y", GROUP_QUESTION, VALUE(vector, normal),
+   .help = {{FIELD, "irradiance of planes at the points, of any tilt, too"}}},
   {"tolerance", "T", GROUP_QUESTION, VALUE(part, tolerance),
    .help = {{FIELD, "interpolate nodes of a grid within T of the range"}}},
 

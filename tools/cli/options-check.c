@@ -130,6 +130,8 @@ int options_check(const options *o, const given_options *given) {
     return complain_usage("SCENE and --points cannot both be standard input");
   if (o->points && (o->grid.columns || o->box.given || o->vtk || o->tolerance > 0))
     return complain_usage("--points excludes --grid, --box, --tolerance and --vtk");
+  if ((o->normal.x != 0 || o->normal.y != 0) && o->tolerance > 0)
+    return complain_usage("--normal and --tolerance exclude each other");
   if (o->from > 0 && o->to >= o->from)
     return complain_usage("--from %g is not greater than --to %g", o->from, o->to);
   return 0;

@@ -34,6 +34,11 @@ typedef struct grid_box {
   int given;
 } grid_box;
 
+/* X,Y. */
+typedef struct vector {
+  double x, y; /* both 0: not given */
+} vector;
+
 /* FROM:RATIO, a geometric sequence that falls. */
 typedef struct sequence {
   double from, ratio; /* 0: not given */
@@ -117,6 +122,7 @@ typedef struct options {
   grid_size grid; /* of `field` */
   grid_box box;
   const char *points; /* file name, or - for standard input */
+  vector normal;      /* of planes at the points */
   double tolerance;   /* of a grid; 0: every node is exact */
   light quantity;     /* of a picture */
   int band;           /* a number, or one of BAND_... */

@@ -97,17 +97,32 @@ int value_grid(const char *option, char *text, value_range range, void *value) {
   return 0;
 }
 
+/* So many numbers with commas in between; returns whether there are. */
+static int read_list(char *text, int count, double *to) {
+  for (int k = 0; k < count; k++) {
+    char *end = text ? strchr(text, ',') : NULL;
+    if (end) *end++ = '\0';
+    if (!text || (k + 1 < count) != (end != NULL) || number_real(text, &to[k])) return 0;
+    text = end;
+  }
+  return 1;
+}
+
 int value_box(const char *option, char *text, value_range range, void *value) {
   grid_box *to = value;
   (void)range;
-  for (int k = 0; k < 4; k++) {
-    char *end = text ? strchr(text, ',') : NULL;
-    if (end) *end++ = '\0';
-    if (!text || (k < 3) != (end != NULL) || number_real(text, &to->side[k]))
-      return complain_usage("--%s: not four numbers X0,Y0,X1,Y1", option);
-    text = end;
-  }
+  if (!read_list(text, 4, to->side))
+    return complain_usage("--%s: not four numbers X0,Y0,X1,Y1", option);
   to->given = 1;
+  return 0;
+}
+
+int value_vector(const char *option, char *text, value_range range, void *value) {
+  double at[2];
+  (void)range;
+  if (!read_list(text, 2, at) || (at[0] == 0 && at[1] == 0))
+    return complain_usage("--%s: not two numbers X,Y that are not both 0", option);
+  *(vector *)value = (vector){at[0], at[1]};
   return 0;
 }
 

@@ -18,8 +18,8 @@ typedef int value_reader(const char *option, char *text, value_range range, void
 
 value_reader value_flag, value_positive, value_part, value_unsigned, value_count, value_path,
     value_file, value_picture, value_patches, value_place, value_places, value_sequence,
-    value_grid, value_box, value_oracle, value_policy, value_norm, value_effect, value_methods,
-    value_against, value_light, value_band, value_film;
+    value_grid, value_box, value_vector, value_oracle, value_policy, value_norm, value_effect,
+    value_methods, value_against, value_light, value_band, value_film;
 
 /* The types of the values. */
 typedef int type_of_flag;                  /* set to 1; there is no text */
@@ -37,6 +37,7 @@ typedef place_list type_of_places;         /* PATCH:T is appended; there is room
 typedef sequence type_of_sequence;         /* FROM:RATIO */
 typedef grid_size type_of_grid;            /* WxH */
 typedef grid_box type_of_box;              /* X0,Y0,X1,Y1 */
+typedef vector type_of_vector;             /* X,Y, not both 0 */
 typedef const hr2d_oracle *type_of_oracle; /* by its name, as those below */
 typedef const hr2d_policy *type_of_policy;
 typedef hr2d_norm type_of_norm;

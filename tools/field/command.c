@@ -59,15 +59,27 @@ static int set_grid(field *f) {
   return f->at ? 0 : complain_memory();
 }
 
+/* Room for irradiances if there are normals: of the points, or the one of --normal. */
+static int set_normals(field *f, hr2d_field_options *how, hr2d_point *one) {
+  *one = (hr2d_point){f->options->normal.x, f->options->normal.y};
+  if (!f->normal && one->x == 0 && one->y == 0) return 0;
+  how->normal = f->normal ? f->normal : one;
+  how->normals = f->normal ? f->count : 1;
+  f->irradiance = malloc((f->count * f->bands + 1) * sizeof *f->irradiance);
+  f->irradiance_error = malloc((f->count * f->bands + 1) * sizeof *f->irradiance_error);
+  return f->irradiance && f->irradiance_error ? 0 : complain_memory();
+}
+
 /* Every point is exact, those of a grid as well if it has no tolerance. */
 static int look(field *f, const run *r) {
   progress p;
   progress_start(&p, f->options->quiet);
-  const hr2d_field_options how = {.struct_size = sizeof how,
-                                  .threads = options_threads(f->options),
-                                  .progress = progress_show,
-                                  .progress_ctx = &p,
-                                  .account = &r->account};
+  hr2d_point one;
+  hr2d_field_options how = {.struct_size = sizeof how,
+                            .threads = options_threads(f->options),
+                            .progress = progress_show,
+                            .progress_ctx = &p,
+                            .account = &r->account};
   const size_t values = f->count * f->bands;
   f->mean = malloc((values + 1) * sizeof *f->mean);
   f->flux = malloc((2 * values + 1) * sizeof *f->flux);
@@ -75,12 +87,15 @@ static int look(field *f, const run *r) {
   f->sky = malloc((f->count + 1) * sizeof *f->sky);
   f->place = malloc(f->count + 1);
   if (!f->mean || !f->flux || !f->error || !f->sky || !f->place) return complain_memory();
+  if (set_normals(f, &how, &one)) return EXIT_FAILED;
   const hr2d_field_values to = {.struct_size = sizeof to,
                                 .mean = f->mean,
                                 .flux = f->flux,
                                 .error = f->error,
                                 .sky = f->sky,
-                                .place = f->place};
+                                .place = f->place,
+                                .irradiance = f->irradiance,
+                                .irradiance_error = f->irradiance_error};
   const hr2d_status status =
       f->grid.tolerance > 0 ? hr2d_field_on_grid(r->solution, &f->grid, &how, &to, &f->counts)
                             : hr2d_field_at(r->solution, f->at, f->count, &how, &to);
@@ -105,6 +120,22 @@ static void print_error(double error) {
     printf("          error of the mean at most %.1e, of the flux %.1e\n", error, PI * error);
 }
 
+/* Of a band. */
+static void print_irradiance(const field *f, size_t band) {
+  double low = HUGE_VAL, high = -HUGE_VAL, error = NAN;
+  for (size_t k = band; k < f->count * f->bands && f->irradiance; k += f->bands) {
+    low = fmin(low, f->irradiance[k]);
+    high = fmax(high, f->irradiance[k]);
+    error = fmax(error, f->irradiance_error[k]);
+  }
+  if (high < low) return;
+  printf("          irradiance %.9g to %.9g", low, high);
+  if (isnan(error))
+    putchar('\n');
+  else
+    printf(", error at most %.1e\n", error);
+}
+
 static void print_field(const field *f, double seconds) {
   size_t of_place[3] = {0};
   for (size_t k = 0; k < f->count; k++) of_place[f->place[k]]++;
@@ -126,6 +157,7 @@ static void print_field(const field *f, double seconds) {
     if (high >= low)
       printf("band %-4zu mean %.9g to %.9g, |flux| to %.9g\n", b, low, high, flux);
     if (high >= low) print_error(error);
+    print_irradiance(f, b);
   }
   if (f->heat) print_temperatures(f);
   printf("seconds   total %.3f\n", seconds);
@@ -169,8 +201,13 @@ int field_command(const options *o) {
   f.heat = run_heat_exists(scene);
   status = draw_check_scene(o, scene);
   if (!status) status = o->points ? field_read_points(&f, o->points) : set_grid(&f);
+  if (!status && f.normal && (o->normal.x != 0 || o->normal.y != 0))
+    status = complain_usage("--normal is for points that have no normals of their own");
   if (!status) status = solve_and_look(&f, start);
   free(f.at);
+  free(f.normal);
+  free(f.irradiance);
+  free(f.irradiance_error);
   free(f.mean);
   free(f.flux);
   free(f.error);

@@ -12,8 +12,8 @@ int field_write_csv(const field *f, const char *path) {
   output out;
   const int status = output_open(&out, path);
   if (status) return status;
-  fprintf(out.stream, "x,y,band,mean,flux_x,flux_y,sky%s,error\n",
-          f->heat ? ",temperature" : "");
+  fprintf(out.stream, "x,y,band,mean,flux_x,flux_y,sky%s,error%s\n",
+          f->heat ? ",temperature" : "", f->irradiance ? ",irradiance,irradiance_error" : "");
   for (size_t k = 0; k < f->count * f->bands && !ferror(out.stream); k++) {
     const size_t point = k / f->bands;
     fprintf(out.stream, "%.17g,%.17g,%zu,", f->at[point].x, f->at[point].y, k % f->bands);
@@ -26,6 +26,12 @@ int field_write_csv(const field *f, const char *path) {
       fprintf(out.stream, "%.17g", field_temperature(f, point));
     if (f->heat) fputc(',', out.stream);
     if (!isnan(f->error[k])) fprintf(out.stream, "%.17g", f->error[k]);
+    if (f->irradiance) {
+      fputc(',', out.stream);
+      if (!isnan(f->irradiance[k])) fprintf(out.stream, "%.17g", f->irradiance[k]);
+      fputc(',', out.stream);
+      if (!isnan(f->irradiance_error[k])) fprintf(out.stream, "%.17g", f->irradiance_error[k]);
+    }
     fputc('\n', out.stream);
   }
   return output_close(&out, 0);

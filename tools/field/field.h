@@ -11,8 +11,10 @@ typedef struct field {
   size_t cuts, bands, count;
   hr2d_field_grid grid; /* 0 columns: points of a file */
   hr2d_point *at;
+  hr2d_point *normal; /* of each point; NULL: one for all, or none */
   double *mean, *flux, *sky;
   double *error; /* bounds of those of `mean`; NaN: not measured; of the flux π times that */
+  double *irradiance, *irradiance_error; /* NULL without normals */
   unsigned char *place;
   int heat;                 /* some patch has a temperature or a flux: T is written, too */
   hr2d_field_counts counts; /* of a grid with a tolerance */
@@ -21,12 +23,14 @@ typedef struct field {
 /* temperature.c: the mean radiant temperature at a point, σT⁴ = ΣM over the bands. */
 double field_temperature(const field *f, size_t point);
 
-/* points.c: reads points "x y", one a line; blank lines and lines that start with # are
-   skipped. Returns 0 or the exit status, as the others do. */
+/* points.c: reads points "x y", or all of them with normals "x y nx ny", one a line; blank
+   lines and lines that start with # are skipped. Returns 0 or the exit status, as the others
+   do. */
 int field_read_points(field *f, const char *path);
 
 /* csv.c: a row for each point and band: x,y,band,mean,flux_x,flux_y,sky, with heat
-   temperature, and error; no numbers outside, and no error that is not measured. */
+   temperature, error, and with normals irradiance and its error; no numbers outside, and no
+   error that is not measured. */
 int field_write_csv(const field *f, const char *path);
 
 /* json.c */

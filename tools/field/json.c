@@ -20,6 +20,11 @@ static json_t *point(const field *f, size_t k) {
   json_put(&object, "flux", json_numbers(f->flux + 2 * k * f->bands, 2 * f->bands));
   json_put(&object, "error", json_numbers(f->error + k * f->bands, f->bands));
   json_put(&object, "sky", json_number(f->sky[k]));
+  if (f->irradiance) {
+    json_put(&object, "irradiance", json_numbers(f->irradiance + k * f->bands, f->bands));
+    json_put(&object, "irradiance_error",
+             json_numbers(f->irradiance_error + k * f->bands, f->bands));
+  }
   if (f->heat) json_put(&object, "temperature", json_number(field_temperature(f, k)));
   return object;
 }

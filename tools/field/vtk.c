@@ -41,6 +41,11 @@ static double mean(const field *f, size_t point, size_t band, size_t k) {
   return f->mean[point * f->bands + band];
 }
 
+static double irradiance(const field *f, size_t point, size_t band, size_t k) {
+  (void)k;
+  return f->irradiance[point * f->bands + band];
+}
+
 /* Vectors have three components. */
 static double flux(const field *f, size_t point, size_t band, size_t k) {
   return k < 2 ? f->flux[2 * (point * f->bands + band) + k] : 0;
@@ -103,6 +108,8 @@ int field_write_vtk(const field *f, const char *path) {
     write_array(f, out.stream, name, b, 1, mean);
     snprintf(name, sizeof name, "flux%zu", b);
     write_array(f, out.stream, name, b, 3, flux);
+    snprintf(name, sizeof name, "irradiance%zu", b);
+    if (f->irradiance) write_array(f, out.stream, name, b, 1, irradiance);
   }
   write_array(f, out.stream, "sky", 0, 1, sky);
   write_array(f, out.stream, "place", 0, 1, kind);

@@ -36,8 +36,12 @@ static void free_sheet(sheet *s) {
 }
 
 static hr2d_field_values values_of(sheet *s) {
-  return (hr2d_field_values){
-      sizeof(hr2d_field_values), s->mean, s->flux, NULL, s->sky, s->back, s->place, NULL};
+  return (hr2d_field_values){.struct_size = sizeof(hr2d_field_values),
+                             .mean = s->mean,
+                             .flux = s->flux,
+                             .sky = s->sky,
+                             .back = s->back,
+                             .place = s->place};
 }
 
 static sheet draw_sheet(const hr2d_solution *solution, hr2d_field_grid grid, unsigned threads) {

@@ -331,8 +331,11 @@ typedef struct field_result {
 } field_result;
 
 static hr2d_field_values values_of(field_result *f) {
-  return (hr2d_field_values){
-      sizeof(hr2d_field_values), f->mean, f->flux, NULL, f->sky, NULL, f->place, NULL};
+  return (hr2d_field_values){.struct_size = sizeof(hr2d_field_values),
+                             .mean = f->mean,
+                             .flux = f->flux,
+                             .sky = f->sky,
+                             .place = f->place};
 }
 
 /* Bands, and the same bits for each number of threads. */

@@ -47,8 +47,14 @@ static light light_at(const stage *s, double x, double y) {
   const hr2d_point at = {x, y};
   hr2d_field_options options = HR2D_FIELD_OPTIONS_INIT;
   options.patch_error = none;
-  const hr2d_field_values values = {sizeof values, &l.mean, l.flux,   &l.error,
-                                    &l.sky,        &l.back, &l.place, &l.cut_off};
+  const hr2d_field_values values = {.struct_size = sizeof values,
+                                    .mean = &l.mean,
+                                    .flux = l.flux,
+                                    .error = &l.error,
+                                    .sky = &l.sky,
+                                    .back = &l.back,
+                                    .place = &l.place,
+                                    .cut_off = &l.cut_off};
   ck_assert_int_eq(hr2d_field_at(s->solution, &at, 1, &options, &values), HR2D_OK);
   free(none);
   return l;
