@@ -169,6 +169,7 @@ OUTSIDE = \
 	tests/program/check-field.sh \
 	tests/program/check-vti.sh \
 	tests/program/check-pictures.sh \
+	tests/program/check-provenance.sh \
 	tests/program/check-one-value.sh \
 	tests/program/check-resume.sh \
 	tests/program/check-temperatures.sh \

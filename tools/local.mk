@@ -11,9 +11,13 @@ SOLVE_SOURCES = \
 	tools/output/csv.c tools/output/csv.h \
 	tools/output/gnuplot.c tools/output/gnuplot.h \
 	tools/output/json.c tools/output/json.h \
+	tools/output/metadata.c tools/output/metadata.h \
 	tools/output/output.c tools/output/output.h \
 	tools/output/palette.c tools/output/palette.h \
+	tools/output/png.c tools/output/png.h \
 	tools/output/progress.c tools/output/progress.h \
+	tools/output/provenance.c tools/output/provenance.h \
+	tools/output/sha256.c tools/output/sha256.h \
 	tools/output/suffix.c tools/output/suffix.h \
 	tools/output/printable.c tools/output/printable.h \
 	tools/output/table.c tools/output/table.h \

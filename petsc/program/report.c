@@ -8,6 +8,7 @@
 #include "output/clock.h"
 #include "output/complain.h"
 #include "output/json.h"
+#include "output/provenance.h"
 #include "output/table.h"
 #include "program.h"
 
@@ -127,6 +128,7 @@ static int write_json(const result *r, const char *path) {
   const hr2d_refine_counts *n = &r->n.whole;
   json_t *root = json_object();
   json_put(&root, "scene", json_text(o->scene));
+  json_put(&root, "provenance", provenance_json());
   json_put(&root, "cuts", json_count(r->j->cuts));
   json_put(&root, "patches", json_patches(r));
   json_put(&root, "elements", json_count(n->elements));

@@ -3,7 +3,7 @@
 PETSC_TESTS = tests/petsc/check-program.sh tests/petsc/check-failures.sh \
 	tests/petsc/check-shares.sh tests/petsc/check-petsc.sh tests/petsc/check-state.sh
 EXTRA_DIST += $(PETSC_TESTS) tests/petsc/ranks.sh tests/petsc/draw-many.py \
-	tests/petsc/even-shares.py tests/petsc/same-averages.py
+	tests/petsc/even-shares.py tests/petsc/same-averages.py tests/petsc/without-comment.py
 TESTS += $(PETSC_TESTS)
 if WITH_PETSC
 RANKED = tests/petsc/check-rank-faults tests/petsc/check-rank-solution \

@@ -308,9 +308,18 @@ if command -v python3 >/dev/null 2>&1; then
   check "factors are JSON" python3 -c 'import json, sys
 d = json.load(open(sys.argv[1]))
 n = len(d["patches"])
-assert len(d["factors"]) == n and all(len(row) == n for row in d["factors"])
-assert all(abs(sum(row) - p["row_sum"]) < 1e-14 for row, p in zip(d["factors"], d["patches"]))
-assert isinstance(d["seconds"], float)' "$work/f.json"
+assert len(d["factors"]) == n
+full = [[0.0] * n for row in range(n)]
+for row, entries in zip(full, d["factors"]):
+    assert len(entries["columns"]) == len(entries["values"])
+    assert all(a < b for a, b in zip(entries["columns"], entries["columns"][1:]))
+    for column, value in zip(entries["columns"], entries["values"]):
+        assert value > 0
+        row[column] = value
+lines = open(sys.argv[2]).read().splitlines()[1:]
+assert full == [[float(x) for x in line.split(",")] for line in lines]
+assert all(abs(sum(row) - p["row_sum"]) < 1e-14 for row, p in zip(full, d["patches"]))
+assert isinstance(d["seconds"], float)' "$work/f.json" "$work/f.csv"
 fi
 # Lines pass an obstacle from (0.3, 0.5) to (0.7, 0.5) in a unit square on either side, by
 # crossed strings √0.34 − ½ on each.
@@ -372,7 +381,7 @@ check "Elmer's file goes to standard output" \
   [ "$(sed -n '1p;3p' "$work/out" | tr '\n' ' ')" = "1 1 " -a "$(wc -l <"$work/out")" -eq 4 ]
 succeeds factors "$far" --mtx -
 check "Matrix Market goes to standard output" \
-  [ "$(sed -n 3p "$work/out")" = "2 2 2" -a "$(wc -l <"$work/out")" -eq 5 ]
+  [ "$(sed -n 4p "$work/out")" = "2 2 2" -a "$(wc -l <"$work/out")" -eq 6 ]
 expect 1 "^hr2d: $work/no/x.mtx: cannot be written" factors "$far" --mtx "$work/no/x.mtx"
 [ ! -c /dev/full ] || expect 1 '^hr2d: /dev/full: cannot be written' factors "$far" --mtx /dev/full
 usage "'solve' has no option --mtx" solve "$far" --mtx a

@@ -331,7 +331,7 @@ while at < len(data):
     if kind == b"fdAT": images[-1] += body[4:]
     kinds.append(kind)
     at += 12 + size
-assert kinds[0] == b"IHDR" and kinds[-1] == b"IEND" and kinds[1] == b"acTL"
+assert kinds[0] == b"IHDR" and kinds[-1] == b"IEND" and kinds[1:3] == [b"iTXt", b"acTL"]
 assert len(images) == frames == int(sys.argv[2])
 assert all(len(zlib.decompress(image)) == height * (1 + 3 * width) for image in images)
 END

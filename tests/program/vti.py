@@ -26,7 +26,11 @@ def by_format(path):
     assert root.get("version") == "1.0" and root.get("header_type") == "UInt64"
     swap = {"LittleEndian": "<", "BigEndian": ">"}[root.get("byte_order")]
     (image,) = root
-    (piece,) = image
+    (fields, piece) = image
+    (text,) = fields
+    assert (fields.tag, text.tag, text.get("type")) == ("FieldData", "DataArray", "String")
+    *codes, end = (int(code) for code in text.text.split())
+    assert end == 0 and bytes(codes).startswith(b"hr2d "), codes
     (points,) = piece
     assert (image.tag, piece.tag, points.tag) == ("ImageData", "Piece", "PointData")
     extent = [int(x) for x in image.get("WholeExtent").split()]
@@ -55,6 +59,7 @@ def by_vtk(path):
     reader.Update()
     assert reader.GetErrorCode() == 0, f"VTK's error {reader.GetErrorCode()}"
     image = reader.GetOutput()
+    assert image.GetFieldData().GetAbstractArray("provenance").GetValue(0).startswith("hr2d ")
     data = image.GetPointData()
     arrays = {}
     for k in range(data.GetNumberOfArrays()):

@@ -12,8 +12,7 @@ static const command_entry commands[] = {
     {"solve", SOLVE, ON_SCENE, "radiosity of every patch, tables and pictures",
      "Refines, solves and reports radiosity and irradiance of every patch.\n",
      "or, instead of a target or a budget:\n",
-     "  hr2d solve room.geojson --target-error 1e-6 --draw room.svg\n"
-     "  hr2d solve room.geojson --oracle l1 --eps 1e-4 --json -\n"},
+     "  hr2d solve room.geojson --target-error 1e-6 --draw room.svg\n"},
 
     {"study", STUDY, ON_SCENE, "links L against elements N over a sequence of epsilon",
      "Counts elements N and links L over a geometric sequence of epsilon and fits\n"

@@ -11,6 +11,7 @@
 #include "cli/option-table.h"
 #include "cli/suggest.h"
 #include "output/complain.h"
+#include "output/provenance.h"
 
 /* For getopt_long() an option is the number FIRST + k, beyond those of characters. */
 enum { FIRST = 256 };
@@ -56,6 +57,7 @@ static int read_option(const option_entry *x, const char *word, const char *comm
                        options *o) {
   if (!is_whole(word, x)) return refuse_option(word, o);
   if (!option_text_of(x, o->command)) return refuse_command(x, command);
+  if (!(x->rules & (IS_OUTPUT | NO_PROVENANCE))) provenance_option(x->name, optarg);
   return x->read(x->name, optarg, x->range, (char *)o + x->member);
 }
 
@@ -96,6 +98,7 @@ static int read_command(const char *word, options *o) {
     if (!strcmp(word, c->name)) {
       o->command = c->command;
       complain_about(c->name);
+      provenance_begin(c->name);
       return 0;
     }
     suggest_offer(&s, c->name);
@@ -153,5 +156,6 @@ void options_release(options *o) {
   free(o->at.items);
   free(o->importance.items);
   free(o->beams_of.items);
+  provenance_release();
   o->at = o->importance = o->beams_of = (place_list){NULL, 0};
 }

@@ -2,9 +2,11 @@
 /* Scene files, and patches by index or name. */
 #include "cli/scene.h"
 
+#include <errno.h>
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "cli/numbers.h"
@@ -13,6 +15,7 @@
 #include "output/complain.h"
 #include "output/printable.h"
 #include "output/progress.h"
+#include "output/provenance.h"
 
 /* What may be the reason why a scene is refused. */
 static void warn_of_refused(const options *o, const hr2d_scene *scene, double deadline) {
@@ -32,6 +35,58 @@ static void tell_snapped(const options *o, const hr2d_snap_report *r) {
              r->farthest, r->from.x, r->from.y, r->to.x, r->to.y);
 }
 
+/* The file as bytes, which the caller frees, also if it fails; a pipe can be read once only. */
+typedef struct file_bytes {
+  char *at;
+  size_t size;
+  const char *trouble; /* "" but for HR2D_EIO */
+} file_bytes;
+
+static hr2d_status read_stream(FILE *stream, progress *p, file_bytes *to) {
+  const hr2d_progress now = {.phase = "read"};
+  for (size_t room = 0; !feof(stream);) {
+    if (progress_show(p, &now)) return HR2D_STOPPED;
+    if (to->size == room) {
+      room = room ? 2 * room : 65536;
+      char *more = room > to->size ? realloc(to->at, room) : NULL;
+      if (!more) return HR2D_ENOMEM;
+      to->at = more;
+    }
+    to->size += fread(to->at + to->size, 1, room - to->size, stream);
+    if (ferror(stream)) {
+      to->trouble = "cannot read";
+      return HR2D_EIO;
+    }
+  }
+  return HR2D_OK;
+}
+
+static hr2d_status read_file(const char *path, progress *p, file_bytes *to) {
+  FILE *stream = fopen(path, "rb");
+  to->trouble = "cannot open";
+  if (!stream) return HR2D_EIO;
+  to->trouble = "";
+  setvbuf(stream, NULL, _IONBF, 0); /* a limit of time is asked for between blocks */
+  const hr2d_status status = read_stream(stream, p, to);
+  const int reason = errno;
+  fclose(stream);
+  errno = reason;
+  return status;
+}
+
+/* The bytes are hashed before a parser sees them. */
+static hr2d_status read_scene(hr2d_scene *scene, const options *o, progress *p) {
+  file_bytes file = {0};
+  hr2d_status status = read_file(o->scene, p, &file);
+  if (status == HR2D_EIO) complain(o->scene, "%s: %s", file.trouble, strerror(errno));
+  if (!status) {
+    provenance_scene(strcmp(o->scene, OPTIONS_STDIN) ? o->scene : "-", file.at, file.size);
+    status = hr2d_scene_parse(scene, file.at, file.size);
+  }
+  free(file.at);
+  return status;
+}
+
 int scene_load(const options *o, unsigned force, hr2d_scene **scene, size_t *cuts) {
   const double deadline = o->time_budget > 0 ? clock_seconds() + o->time_budget : 0;
   progress p = {.deadline = deadline};
@@ -39,7 +94,7 @@ int scene_load(const options *o, unsigned force, hr2d_scene **scene, size_t *cut
   *cuts = 0;
   hr2d_status status = hr2d_scene_create(NULL, scene);
   if (!status) hr2d_scene_set_progress(*scene, progress_show, &p);
-  if (!status) status = hr2d_scene_read(*scene, o->scene);
+  if (!status) status = read_scene(*scene, o, &p);
   /* Not before: a signal that only sets a flag would not end a read that waits for a pipe. */
   if (!status) {
     progress_start(&p, o->quiet);
@@ -59,9 +114,10 @@ int scene_load(const options *o, unsigned force, hr2d_scene **scene, size_t *cut
   if (status != HR2D_STOPPED && status != HR2D_ENOMEM && *scene && hr2d_scene_patches(*scene))
     warn_of_refused(o, *scene, deadline);
   const int code =
-      p.late ? complain(o->scene, "the time does not suffice to %s the scene",
-                        hr2d_scene_patches(*scene) ? "check" : "read")
-             : complain_call(o->scene, *scene ? hr2d_scene_message(*scene) : "", status);
+      status == HR2D_EIO ? EXIT_FAILED
+      : p.late           ? complain(o->scene, "the time does not suffice to %s the scene",
+                          hr2d_scene_patches(*scene) ? "check" : "read")
+               : complain_call(o->scene, *scene ? hr2d_scene_message(*scene) : "", status);
   hr2d_scene_destroy(*scene);
   *scene = NULL;
   return code;

@@ -3,13 +3,16 @@
 #include <stdio.h>
 
 #include "cost/cost.h"
+#include "output/csv.h"
 #include "output/json.h"
 #include "output/output.h"
+#include "output/provenance.h"
 
 int cost_write_csv(const cost *c) {
   output out;
-  const int status = output_open(&out, c->options->csv);
+  int status = output_open(&out, c->options->csv);
   if (status) return status;
+  status = csv_begin(out.stream, c->options->csv_comment);
   fputs("method,parameter,order,elements,links,bytes,seconds,error,variant,closure\n",
         out.stream);
   for (size_t k = 0; k < c->count; k++) {
@@ -20,7 +23,7 @@ int cost_write_csv(const cost *c) {
             (unsigned long long)row->bytes, row->seconds, row->error,
             cost_method_variant(row->method), cost_method_closure(c, row->method));
   }
-  return output_close(&out, 0);
+  return output_close(&out, status);
 }
 
 static json_t *prediction_entry(const cost *c, int k) {
@@ -103,6 +106,7 @@ int cost_write_json(const cost *c) {
   for (int k = 0; k < c->predictions; k++) json_push(&predictions, prediction_entry(c, k));
   for (size_t k = 0; k < c->count; k++) json_push(&rows, row_entry(c, &c->rows[k]));
   json_put(&root, "scene", json_text(c->options->scene));
+  json_put(&root, "provenance", provenance_json());
   json_put(&root, "cuts", json_count(c->cuts));
   json_put(&root, "threads", json_count(c->options->threads));
   json_put(&root, "predictions", predictions);

@@ -21,7 +21,9 @@ int draw_check_scene(const options *o, const hr2d_scene *scene) {
 #include <stdlib.h>
 
 #include "draw/cairo-late.h"
+#include "output/metadata.h"
 #include "output/output.h"
+#include "output/provenance.h"
 #include "output/suffix.h"
 
 #define PIXELS_PER_POINT 2.0
@@ -62,39 +64,60 @@ static int draw_page(picture *p) {
   return status;
 }
 
+/* Cairo would write the time into a PDF. */
+static cairo_surface_t *make_pdf(const picture *p, FILE *stream) {
+  cairo_surface_t *pdf =
+      cairo_pdf_surface_create_for_stream(write_bytes, stream, p->width, p->height);
+  char *text = provenance_text();
+  if (text) cairo_pdf_surface_set_metadata(pdf, CAIRO_PDF_METADATA_SUBJECT, text);
+  cairo_pdf_surface_set_metadata(pdf, CAIRO_PDF_METADATA_CREATE_DATE, NULL);
+  free(text);
+  return pdf;
+}
+
 static cairo_surface_t *make_surface(const picture *p, suffix format, FILE *stream) {
   switch (format) {
   case SUFFIX_SVG:
     return cairo_svg_surface_create_for_stream(write_bytes, stream, p->width, p->height);
   case SUFFIX_PDF:
-    return cairo_pdf_surface_create_for_stream(write_bytes, stream, p->width, p->height);
+    return make_pdf(p, stream);
   default:
     return cairo_image_surface_create(CAIRO_FORMAT_RGB24, (int)(PIXELS_PER_POINT * p->width),
                                       (int)(PIXELS_PER_POINT * p->height));
   }
 }
 
-int draw_file(picture *p, const char *path, int (*page)(picture *p)) {
+static int draw_into(picture *p, FILE *stream, const char *path, int (*page)(picture *p)) {
   const suffix format = suffix_of(path);
-  output out;
-  int status = output_open(&out, path);
-  if (status) return status;
-  cairo_surface_t *surface = make_surface(p, format, out.stream);
+  cairo_surface_t *surface = make_surface(p, format, stream);
   p->cr = cairo_create(surface);
   if (format == SUFFIX_PNG) cairo_scale(p->cr, PIXELS_PER_POINT, PIXELS_PER_POINT);
   pen_grey(p->cr, 1);
   cairo_paint(p->cr);
-  status = page(p);
+  const int status = page(p);
   cairo_show_page(p->cr);
   cairo_status_t trouble = cairo_status(p->cr);
   cairo_destroy(p->cr);
   if (format == SUFFIX_PNG && !trouble && !status)
-    trouble = cairo_surface_write_to_png_stream(surface, write_bytes, out.stream);
+    trouble = cairo_surface_write_to_png_stream(surface, write_bytes, stream);
   cairo_surface_finish(surface);
   if (!trouble) trouble = cairo_surface_status(surface);
   cairo_surface_destroy(surface);
-  if (trouble && !status && !ferror(out.stream))
-    status = complain(path, "cannot be drawn: %s", cairo_status_to_string(trouble));
+  if (!trouble || status) return status;
+  return complain(path, "cannot be drawn: %s", cairo_status_to_string(trouble));
+}
+
+int draw_file(picture *p, const char *path, int (*page)(picture *p)) {
+  output out;
+  char *bytes = NULL;
+  size_t size = 0;
+  int status = output_open(&out, path);
+  if (status) return status;
+  FILE *memory = open_memstream(&bytes, &size);
+  status = memory ? draw_into(p, memory, path, page) : complain_memory();
+  if (memory && fclose(memory) && !status) status = complain_memory();
+  if (!status) status = metadata_write(out.stream, suffix_of(path), bytes, size);
+  free(bytes);
   return output_close(&out, status);
 }
 

@@ -13,6 +13,7 @@
 #include "cli/scene.h"
 #include "output/apng.h"
 #include "output/output.h"
+#include "output/provenance.h"
 
 #define PIXELS   1.0 /* in a point */
 #define WIDTH    1080.0
@@ -266,9 +267,12 @@ static int write_film(watch *w, const char *path) {
   int status = run_agree(&r, opened);
   if (status) return opened || !first ? status : output_close(&out, status);
   r.account.order = r.options->order;
-  w->film = (apng){.stream = out.stream, .frames = count_frames(r.options)};
-  status = make_frames(w, &r);
+  char *comment = first ? provenance_text() : NULL;
+  w->film = (apng){.stream = out.stream, .comment = comment, .frames = count_frames(r.options)};
+  status = run_agree(&r, first && !comment ? complain_memory() : EXIT_DONE);
+  if (!status) status = make_frames(w, &r);
   if (!status && first) apng_end(&w->film);
+  free(comment);
   run_release(&r);
   return first ? output_close(&out, status) : status;
 }

@@ -9,9 +9,10 @@
 
 int factors_write_csv(const factors *f) {
   output out;
-  const int status = output_open(&out, f->options->csv);
+  int status = output_open(&out, f->options->csv);
   const size_t n = f->patches;
   if (status) return status;
+  status = csv_begin(out.stream, f->options->csv_comment);
   for (size_t k = 0; k < n; k++) {
     csv_text(out.stream, hr2d_scene_name(f->scene, k));
     fputc(k + 1 < n ? ',' : '\n', out.stream);
@@ -21,5 +22,5 @@ int factors_write_csv(const factors *f) {
     for (size_t k = 0; k < n; k++)
       fprintf(out.stream, "%.17g%c", row[k], k + 1 < n ? ',' : '\n');
   }
-  return output_close(&out, 0);
+  return output_close(&out, status);
 }

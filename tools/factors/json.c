@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The matrix as JSON, written row by row: a document of jansson would take ten times the memory
-   of the matrix. */
+/* The factors that are not 0 as JSON, written row by row: a document of jansson would take ten
+   times their memory. */
 #include "output/json.h"
 
 #include <stdio.h>
 
 #include "factors/factors.h"
 #include "output/output.h"
+#include "output/provenance.h"
 
 static int write_member(FILE *stream, const char *key, json_t *value) {
   fprintf(stream, ",\n  \"%s\": ", key);
@@ -24,8 +25,20 @@ static json_t *patch_entry(const factors *f, size_t k) {
   return patch;
 }
 
-static json_t *row(const factors *f, size_t k) {
-  return json_numbers(factors_row(f, k), f->patches);
+/* Row i: the patches that patch i sees, which rise, and their F_ij. */
+static json_t *row(const factors *f, size_t i) {
+  const uint64_t *start = hr2d_exchange_rows_start(f->rows);
+  const uint32_t *column = hr2d_exchange_rows_column(f->rows);
+  const double *area = hr2d_exchange_rows_area(f->rows);
+  const double length = hr2d_scene_length(f->scene, i);
+  json_t *object = json_object(), *columns = json_array(), *values = json_array();
+  for (uint64_t k = start[i]; k < start[i + 1]; k++) {
+    json_push(&columns, json_count(column[k]));
+    json_push(&values, json_number(area[k] / length));
+  }
+  json_put(&object, "columns", columns);
+  json_put(&object, "values", values);
+  return object;
 }
 
 /* An array with an item per patch, each on its own line. */
@@ -56,6 +69,7 @@ int factors_write_json(const factors *f, const char *path) {
   if (status) return status;
   fputs("{\n  \"scene\": ", out.stream);
   status = json_write_value(out.stream, json_text(f->options->scene));
+  if (!status) status = write_member(out.stream, "provenance", provenance_json());
   if (!status) status = write_member(out.stream, "cuts", json_count(f->cuts));
   if (!status) status = write_list(out.stream, "patches", f, patch_entry);
   if (!status) status = write_list(out.stream, "factors", f, row);

@@ -5,16 +5,18 @@
 
 #include "factors/factors.h"
 #include "output/output.h"
+#include "output/provenance.h"
 
 int factors_write_mtx(const factors *f) {
   output out;
-  const int status = output_open(&out, f->options->mtx);
+  int status = output_open(&out, f->options->mtx);
   const size_t n = f->patches;
   if (status) return status;
   fputs("%%MatrixMarket matrix coordinate real general\n"
         "% view factors: row i has the part of the light of patch i that reaches patch j\n",
         out.stream);
+  status = provenance_print(out.stream, "% ", "\n");
   fprintf(out.stream, "%zu %zu %" PRIu64 "\n", n, n, hr2d_exchange_rows_entries(f->rows));
   for (size_t i = 0; i < n && !ferror(out.stream); i++) factors_print_entries(f, i, out.stream);
-  return output_close(&out, 0);
+  return output_close(&out, status);
 }

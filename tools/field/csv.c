@@ -10,11 +10,12 @@
 
 int field_write_csv(const field *f, const char *path) {
   output out;
-  const int status = output_open(&out, path);
+  int status = output_open(&out, path);
   if (status) return status;
+  status = csv_begin(out.stream, f->options->csv_comment);
   fprintf(out.stream, "x,y,band,mean,flux_x,flux_y,sky%s,error%s\n",
           f->heat ? ",temperature" : "", f->irradiance ? ",irradiance,irradiance_error" : "");
-  for (size_t k = 0; k < f->count * f->bands && !ferror(out.stream); k++) {
+  for (size_t k = 0; k < f->count * f->bands && !status && !ferror(out.stream); k++) {
     const size_t point = k / f->bands;
     fprintf(out.stream, "%.17g,%.17g,%zu,", f->at[point].x, f->at[point].y, k % f->bands);
     if (f->place[point] == HR2D_PLACE_OUTSIDE)
@@ -34,5 +35,5 @@ int field_write_csv(const field *f, const char *path) {
     }
     fputc('\n', out.stream);
   }
-  return output_close(&out, 0);
+  return output_close(&out, status);
 }

@@ -6,6 +6,7 @@
 
 #include "field/field.h"
 #include "output/output.h"
+#include "output/provenance.h"
 
 static const char *const places[] = {[HR2D_PLACE_BETWEEN] = "between",
                                      [HR2D_PLACE_PATCH] = "patch",
@@ -35,6 +36,8 @@ int field_write_json(const field *f, const char *path) {
   if (status) return status;
   fputs("{\n  \"scene\": ", out.stream);
   status = json_write_value(out.stream, json_text(f->options->scene));
+  fputs(",\n  \"provenance\": ", out.stream);
+  if (!status) status = json_write_value(out.stream, provenance_json());
   fprintf(out.stream, ",\n  \"columns\": %zu,\n  \"rows\": %zu,\n  \"points\": [",
           f->grid.columns, f->grid.rows);
   for (size_t k = 0; k < f->count && !status && !ferror(out.stream); k++) {

@@ -3,10 +3,13 @@
    the length in bytes as 8 bytes, and then the numbers, in the byte order of the machine. */
 #include <stdint.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "field/field.h"
+#include "output/complain.h"
 #include "output/output.h"
+#include "output/provenance.h"
 
 /* Bytes that wait until there are three. */
 typedef struct base64 {
@@ -88,9 +91,22 @@ static double spacing(double low, double high, size_t count) {
   return count > 1 ? (high - low) / (double)(count - 1) : 1;
 }
 
+/* A string of VTK is the codes of its bytes, up to a 0. */
+static int write_provenance(FILE *stream) {
+  char *text = provenance_text();
+  if (!text) return complain_memory();
+  fputs("<FieldData>\n<DataArray type=\"String\" Name=\"provenance\" NumberOfTuples=\"1\" "
+        "format=\"ascii\">\n",
+        stream);
+  for (const char *c = text; *c; c++) fprintf(stream, "%d ", (unsigned char)*c);
+  fputs("0\n</DataArray>\n</FieldData>\n", stream);
+  free(text);
+  return 0;
+}
+
 int field_write_vtk(const field *f, const char *path) {
   output out;
-  const int status = output_open(&out, path);
+  int status = output_open(&out, path);
   const uint16_t one = 1;
   if (status) return status;
   const hr2d_field_grid *g = &f->grid;
@@ -98,10 +114,13 @@ int field_write_vtk(const field *f, const char *path) {
           "<?xml version=\"1.0\"?>\n<VTKFile type=\"ImageData\" version=\"1.0\" "
           "byte_order=\"%s\" header_type=\"UInt64\">\n"
           "<ImageData WholeExtent=\"0 %zu 0 %zu 0 0\" Origin=\"%.17g %.17g 0\" "
-          "Spacing=\"%.17g %.17g 1\">\n<Piece Extent=\"0 %zu 0 %zu 0 0\">\n<PointData>\n",
+          "Spacing=\"%.17g %.17g 1\">\n",
           *(const unsigned char *)&one ? "LittleEndian" : "BigEndian", g->columns - 1,
           g->rows - 1, g->low.x, g->low.y, spacing(g->low.x, g->high.x, g->columns),
-          spacing(g->low.y, g->high.y, g->rows), g->columns - 1, g->rows - 1);
+          spacing(g->low.y, g->high.y, g->rows));
+  status = write_provenance(out.stream);
+  fprintf(out.stream, "<Piece Extent=\"0 %zu 0 %zu 0 0\">\n<PointData>\n", g->columns - 1,
+          g->rows - 1);
   for (size_t b = 0; b < f->bands; b++) {
     char name[32];
     snprintf(name, sizeof name, "mean%zu", b);
@@ -115,5 +134,5 @@ int field_write_vtk(const field *f, const char *path) {
   write_array(f, out.stream, "place", 0, 1, kind);
   if (f->heat) write_array(f, out.stream, "temperature", 0, 1, temperature);
   fputs("</PointData>\n</Piece>\n</ImageData>\n</VTKFile>\n", out.stream);
-  return output_close(&out, 0);
+  return output_close(&out, status);
 }

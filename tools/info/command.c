@@ -7,6 +7,7 @@
 #include "cli/scene.h"
 #include "cli/warnings.h"
 #include "output/json.h"
+#include "output/provenance.h"
 
 typedef struct summary {
   double length;                      /* of all patches */
@@ -143,6 +144,7 @@ static json_t *document(const options *o, const hr2d_scene *scene, size_t cuts,
     json_put(&reasons, hr2d_effect_name((hr2d_effect)e), json_text(why));
   }
   json_put(&root, "scene", json_text(o->scene));
+  json_put(&root, "provenance", provenance_json());
   json_put(&root, "cuts", json_count(cuts));
   json_put(&root, "patches", patches);
   json_put(&root, "length", json_number(s->length));

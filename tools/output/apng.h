@@ -9,9 +9,10 @@
 
 typedef struct apng {
   FILE *stream;
-  uint32_t frames;   /* in all; what does not read animations shows the first */
-  uint32_t done;     /* frames that were added */
-  uint32_t sequence; /* number of the next chunk of the animation */
+  const char *comment; /* NULL: none */
+  uint32_t frames;     /* in all; what does not read animations shows the first */
+  uint32_t done;       /* frames that were added */
+  uint32_t sequence;   /* number of the next chunk of the animation */
 } apng;
 
 /* Adds a frame from the bytes of a PNG file as any encoder writes it.  After the first one the

@@ -8,11 +8,6 @@
 
 #include "output/printable.h"
 
-/* Another program may use these files. */
-#ifndef PROGRAM_NAME
-#define PROGRAM_NAME "hr2d"
-#endif
-
 enum { LINE = 2048 };
 
 static void one_line(char *text) {

@@ -5,6 +5,11 @@
 
 #include <hr2d/status.h>
 
+/* Another program may use these files. */
+#ifndef PROGRAM_NAME
+#define PROGRAM_NAME "hr2d"
+#endif
+
 enum {
   EXIT_DONE = 0,
   EXIT_FAILED = 1, /* a failed solve or bad input */

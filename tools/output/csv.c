@@ -4,6 +4,12 @@
 
 #include <string.h>
 
+#include "output/provenance.h"
+
+int csv_begin(FILE *stream, int comment) {
+  return comment ? provenance_print(stream, "# ", "\n") : 0;
+}
+
 void csv_text(FILE *stream, const char *text) {
   /* An empty field is quoted: alone on its line it would look like an empty line. */
   if (*text && !text[strcspn(text, ",\"\r\n")]) {

@@ -1,18 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* gnuplot reads the script from its standard input and draws to its standard output, so that
    its syntax never sees a file name.  The output is a pipe that this program copies to the
-   file, because gnuplot does not notice when a disk is full. */
+   file, because gnuplot does not notice when a disk is full, and with its provenance. */
 #include "output/gnuplot.h"
 
 #include <errno.h>
 #include <fcntl.h>
 #include <signal.h>
 #include <spawn.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include "output/complain.h"
+#include "output/metadata.h"
 #include "output/output.h"
 #include "output/suffix.h"
 
@@ -97,7 +99,7 @@ static int open_pipe(int ends[2]) {
   return -1;
 }
 
-/* Copies until the pipe ends or the picture cannot be written.  Returns 1 if the pipe was read
+/* Copies until the pipe ends or the picture cannot be kept.  Returns 1 if the pipe was read
    to its end and was not empty. */
 static int copy(int from, FILE *picture) {
   char block[16384];
@@ -111,6 +113,7 @@ static int copy(int from, FILE *picture) {
   }
 }
 
+/* The picture is kept in memory. */
 static int run_gnuplot(const char *path, FILE *script, FILE *picture, FILE *complaints) {
   pid_t child = 0;
   int status = 0, ends[2];
@@ -124,10 +127,21 @@ static int run_gnuplot(const char *path, FILE *script, FILE *picture, FILE *comp
   if (error) return complain(path, "cannot run gnuplot: %s", strerror(error));
   while (waitpid(child, &status, 0) < 0)
     if (errno != EINTR) return complain(path, "cannot wait for gnuplot: %s", strerror(errno));
-  if (ferror(picture)) return EXIT_DONE; /* output_close() prints the reason */
+  if (ferror(picture)) return complain_memory();
   if (WIFEXITED(status) && WEXITSTATUS(status) == 127)
     return complain(path, "cannot be plotted: gnuplot is not installed");
   return status || !drawn ? fail_gnuplot(path, complaints) : EXIT_DONE;
+}
+
+static int plot(const char *path, FILE *script, FILE *stream, FILE *complaints) {
+  char *bytes = NULL;
+  size_t size = 0;
+  FILE *picture = open_memstream(&bytes, &size);
+  int status = picture ? run_gnuplot(path, script, picture, complaints) : complain_memory();
+  if (picture && fclose(picture) && !status) status = complain_memory();
+  if (!status) status = metadata_write(stream, suffix_of(path), bytes, size);
+  free(bytes);
+  return status;
 }
 
 int gnuplot_draw(const char *path, void (*write_script)(FILE *script, const void *ctx),
@@ -141,7 +155,7 @@ int gnuplot_draw(const char *path, void (*write_script)(FILE *script, const void
     if (fflush(script) || ferror(script))
       status = complain(path, "cannot write the script for gnuplot");
     else
-      status = run_gnuplot(path, script, out.stream, complaints);
+      status = plot(path, script, out.stream, complaints);
   } else
     status = complain(path, "cannot make a temporary file: %s", strerror(errno));
   if (script) fclose(script);

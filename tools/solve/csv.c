@@ -125,6 +125,7 @@ int solve_write_csv(const run *r, const char *path) {
               .sun = run_sun_exists(r->scene),
               .gathers = run_gathers(r) && hr2d_scene_cut_off(r->scene) > 0};
   status = reserve(&w);
+  if (!status) status = csv_begin(out.stream, r->options->csv_comment);
   if (!status) write_header(&w);
   for (; !status && w.patch < hr2d_scene_patches(r->scene); w.patch++)
     status = leaves_walk(r->hierarchy, w.patch, 0, write_leaf, &w);

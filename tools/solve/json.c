@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "output/provenance.h"
 #include "solve/solve.h"
 
 static json_t *per_band(const run *r, size_t patch,
@@ -247,6 +248,7 @@ int solve_write_json(const run *r, double total_seconds, const char *path) {
   const hr2d_refine_counts counts = hr2d_linkset_counts(r->links);
   json_t *root = json_object();
   json_put(&root, "scene", json_text(o->scene));
+  json_put(&root, "provenance", provenance_json());
   json_put(&root, "cuts", json_count(r->cuts));
   json_put(&root, "patches", patches(r));
   json_put(&root, "at", places(r));

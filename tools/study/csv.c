@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Rows of a study as CSV, with 17 digits so that ε can be recognised by its bits. */
+#include "output/csv.h"
+
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -31,14 +33,15 @@ static void write_row(FILE *stream, const study *s, const hr2d_study_row *row) {
 
 int study_write_csv(const study *s) {
   output out;
-  const int status = output_open(&out, s->options->csv);
+  int status = output_open(&out, s->options->csv);
   if (status) return status;
+  status = csv_begin(out.stream, s->options->csv_comment);
   const int fields = s->lawful ? FIELDS : COUNTED;
   for (int k = 0; k < fields; k++)
     fprintf(out.stream, "%s%c", columns_of_study[k], k + 1 < fields ? ',' : '\n');
   for (size_t k = 0; k < s->count; k++)
     if (s->rows[k].counts.elements) write_row(out.stream, s, &s->rows[k]);
-  return output_close(&out, 0);
+  return output_close(&out, status);
 }
 
 int study_can_rewrite_csv(const study *s) {
@@ -92,17 +95,19 @@ static int read_row(const char *path, size_t number, char *field[FIELDS], hr2d_s
   return 0;
 }
 
-/* Line 1 has to be the header, which sets the number of fields; other lines are rows. */
+/* The first line, but for comments, has to be the header, which sets the number of fields;
+   other lines are rows. */
 static int read_line(const char *path, size_t number, char *line, size_t size, int *fields,
                      hr2d_study_row *row) {
   char *field[FIELDS];
+  const int first = !*fields;
   if (strlen(line) < size) return refuse(path, number, "contains a NUL byte");
   if (line[size - 1] != '\n') return refuse(path, number, "is cut off");
   line[--size] = '\0';
   if (size && line[size - 1] == '\r') line[--size] = '\0';
   const int count = split(line, field);
-  if (number == 1) *fields = count;
-  if (number == 1)
+  if (first) *fields = count;
+  if (first)
     return is_header(field, count) ? 0 : refuse(path, number, "is not the header of a study");
   if (count != *fields)
     return complain(path, "cannot be resumed: line %zu has %s fields, not %d", number,
@@ -128,12 +133,15 @@ static int read_lines(const char *path, FILE *stream, hr2d_study_row **rows, siz
   int status = 0, fields = 0;
   hr2d_study_row row;
   for (ssize_t size; !status && (size = getline(&line, &capacity, stream)) > 0;) {
-    status = read_line(path, ++number, line, (size_t)size, &fields, &row);
-    if (!status && number > 1) status = append(rows, count, &row);
+    const int head = !fields;
+    number++;
+    if (head && *line == '#') continue;
+    status = read_line(path, number, line, (size_t)size, &fields, &row);
+    if (!status && !head) status = append(rows, count, &row);
   }
   free(line);
   if (!status && !feof(stream)) status = complain(path, "cannot be read: %s", strerror(errno));
-  return !status && !number ? complain(path, "cannot be resumed: it is empty") : status;
+  return !status && !fields ? complain(path, "cannot be resumed: it is empty") : status;
 }
 
 int study_read_csv(const char *path, hr2d_study_row **rows, size_t *count) {

@@ -2,6 +2,7 @@
 /* Rows and fit of a study as JSON. */
 #include "output/json.h"
 
+#include "output/provenance.h"
 #include "study/study.h"
 
 static json_t *row_entry(const hr2d_study_row *row) {
@@ -51,6 +52,7 @@ int study_write_json(const study *s) {
   json_t *root = json_object(), *rows = json_array();
   for (size_t k = 0; k < s->count; k++) json_push(&rows, row_entry(&s->rows[k]));
   json_put(&root, "scene", json_text(o->scene));
+  json_put(&root, "provenance", provenance_json());
   json_put(&root, "cuts", json_count(s->cuts));
   json_put(&root, "oracle", json_text(o->oracle->name));
   json_put(&root, "variant", json_text(o->policy->name));
