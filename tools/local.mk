@@ -110,10 +110,17 @@ tools_hr2d_SOURCES = $(SOLVE_SOURCES) \
 	tools/field/temperature.c \
 	tools/field/vtk.c \
 	tools/pair/command.c \
+	tools/schema/command.c tools/schema/texts.h \
 	tools/pair/line.c tools/pair/line.h
 
+nodist_tools_hr2d_SOURCES = tools/schema/texts.c
+tools/schema/texts.c: tools/schema/texts.awk $(dist_schemas_DATA)
+	$(AM_V_GEN)$(MKDIR_P) $(@D) && LC_ALL=C $(AWK) -f $(srcdir)/tools/schema/texts.awk \
+	  $(dist_schemas_DATA:%=$(srcdir)/%) >$@.new && mv $@.new $@
+CLEANFILES += tools/schema/texts.c
+
 dist_man_MANS = tools/hr2d.1
-EXTRA_DIST += tools/LAYERS
+EXTRA_DIST += tools/LAYERS tools/schema/texts.awk
 
 # What shells complete; each file asks the program.
 bashcompletiondir = $(datadir)/bash-completion/completions

@@ -39,6 +39,8 @@ static int run(const options *o) {
     return field_command(o);
   case FACTORS:
     return factors_command(o);
+  case SCHEMA:
+    return schema_command(o);
   default:
     return pair_command(o);
   }

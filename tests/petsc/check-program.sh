@@ -27,6 +27,15 @@ for scene in $rooms; do
   check "$scene as hr2d solve: $(cat "$work/errors" "$work/$count.errors")" \
     python3 "$HR2D_SRCDIR/tests/petsc/same-averages.py" "$work/one" "$work/three$count"
 done
+if python3 -c 'import jsonschema; jsonschema.Draft202012Validator' 2>"$work/errors"; then
+  "$HR2D_PROGRAM" schema solve-mpi >"$work/schema"
+  check "it is what its schema says" python3 -c 'import json, jsonschema, sys
+schema, result = (json.load(open(path)) for path in sys.argv[1:])
+validator = jsonschema.Draft202012Validator(schema)
+validator.validate(result)
+del result["ranks"]["count"]
+assert not validator.is_valid(result)' "$work/schema" "$work/three1"
+fi
 "$HR2D_PROGRAM" solve "$scenes/lit-room.geojson" --no-error --quiet --eps 0.2 --json "$work/one"
 check "a difference would be found" \
   eval '! python3 "$HR2D_SRCDIR/tests/petsc/same-averages.py" "$work/one" "$work/three1" 2>"$work/out"'

@@ -118,7 +118,7 @@ usage "--link-parents needs --variant modified" solve "$far" --draw a.svg --link
 fits_screen() {
   awk 'length($0) > 80 { bad = 1 } END { exit bad || NR < 5 || NR > 48 }' "$work/out"
 }
-for command in "" info solve study cost factors field pair; do
+for command in "" info solve study cost factors field pair schema; do
   # shellcheck disable=SC2086
   succeeds $command --help
   check "help of '$command' fits a screen" fits_screen
@@ -126,12 +126,12 @@ done
 same_help() {
   hr2d "$@" | cmp -s - "$work/help"
 }
-for command in info solve study cost factors field pair; do
+for command in info solve study cost factors field pair schema; do
   hr2d $command --help >"$work/help"
   check "'$command -h'" same_help $command -h
   check "'help $command'" same_help help $command
   check "'$command --help' has an example" grep -q '^For example:$' "$work/help"
-  sed '1,/^For example:$/d; /hr2d pair/d; s/^.*hr2d //' "$work/help" >"$work/examples"
+  sed '1,/^For example:$/d; /hr2d pair/d; /hr2d schema/d; s/^.*hr2d //' "$work/help" >"$work/examples"
   while read -r example; do
     # shellcheck disable=SC2086
     run $(echo "$example" | sed "s|room.geojson|$work/none|; s|\(--[a-z]*\) \([a-z]*\.[a-z]\)|\1 $work/\2|")

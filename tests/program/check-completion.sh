@@ -45,13 +45,13 @@ offers() { # offers SHELL EXPECTED WORD...: the expected words, in any order
 
 for shell in bash fish; do
   command -v $shell >/dev/null || { echo "not tried: $shell" && continue; }
-  check "$shell: commands" offers $shell 'solve study ' hr2d s
+  check "$shell: commands" offers $shell 'schema solve study ' hr2d s
   check "$shell: commands of help" offers $shell 'factors field ' hr2d help f
   check "$shell: options" offers $shell '--max-elements --max-level --max-links ' hr2d solve --max
   check "$shell: a scene" offers $shell 'room.geojson ' hr2d solve roo
   check "$shell: a file of an option" offers $shell 'room.geojson ' hr2d solve --json roo
   check "$shell: no options of other commands" offers $shell '' hr2d info --eps
-  for command in info solve study cost factors field pair; do
+  for command in info solve study cost factors field pair schema; do
     "in_$shell" hr2d $command -- | grep -vx -e --help | sort >"$work/offered"
     listed $command >"$work/listed"
     check "$shell: all options of $command: $(diff "$work/listed" "$work/offered")" \

@@ -57,7 +57,12 @@ static const command_entry commands[] = {
      "AF = A_i F_ij = A_j F_ji, the two view factors, and the oracle's estimate,\n"
      "nan where the segments cross or overlap.  Blank lines and\n"
      "lines that start with # are skipped.\n",
-     NULL, "  echo 0 0 1 0 1 1 0 1 | hr2d pair\n"}};
+     NULL, "  echo 0 0 1 0 1 1 0 1 | hr2d pair\n"},
+
+    {"schema", SCHEMA, "[NAME]", "[NAME]", "what scenes and results in JSON are",
+     "Prints a JSON Schema (draft 2020-12), against which other programs check scenes\n"
+     "and the output of --json.  Without NAME it lists them.\n",
+     NULL, "  hr2d schema scene\n"}};
 
 const command_entry *command_at(size_t k) {
   return k < sizeof commands / sizeof *commands ? &commands[k] : NULL;

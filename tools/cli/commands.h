@@ -29,5 +29,6 @@ int cost_command(const options *o);
 int factors_command(const options *o);
 int field_command(const options *o);
 int pair_command(const options *o);
+int schema_command(const options *o);
 
 #endif

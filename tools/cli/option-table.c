@@ -14,7 +14,7 @@ enum { MAX_LEVEL = 1000, MAX_THREADS = 1024, MAX_STEPS = 10000, MAX_CONTOURS = 3
 #define WHOLE(m, min, max) value_unsigned, MEMBER(unsigned, m), {min, max}
 #define COUNT(m)              value_count, MEMBER(count, m), {1, UINT64_MAX}
 
-enum { WITH_SCENE = INFO | SOLVE | STUDY | COST | FACTORS | FIELD, ALL = WITH_SCENE | PAIR };
+enum { WITH_SCENE = INFO | SOLVE | STUDY | COST | FACTORS | FIELD, ALL = WITH_SCENE | PAIR | SCHEMA };
 
 static const option_entry table[] = {
   {"help", NULL, GROUP_OUTPUT, VALUE(flag, help), .help = {{ALL, NULL}}},

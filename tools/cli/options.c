@@ -83,7 +83,8 @@ static int read_options(int argc, char **argv, options *o, given_options *given)
 }
 
 static int read_arguments(int argc, char **argv, options *o) {
-  const int wanted = o->command == PAIR ? 0 : 1;
+  if (o->command == SCHEMA && optind < argc) o->schema = argv[optind++];
+  const int wanted = o->command & (PAIR | SCHEMA) ? 0 : 1;
   if (argc - optind < wanted) return complain_usage("'%s' needs a SCENE file", argv[0]);
   if (argc - optind > wanted)
     return complain_usage("'%s' is one argument too many", argv[optind + wanted]);

@@ -9,7 +9,7 @@
 #include <stdint.h>
 
 /* One bit each, so that an option can name the commands that it belongs to. */
-enum { INFO = 1, SOLVE = 2, STUDY = 4, FACTORS = 8, PAIR = 16, COST = 32, FIELD = 64 };
+enum { INFO = 1, SOLVE = 2, STUDY = 4, FACTORS = 8, PAIR = 16, COST = 32, FIELD = 64, SCHEMA = 128 };
 
 /* PATCH:T, a point at fraction t of the patch with this index or name.  PATCH alone has no t.
  */
@@ -94,7 +94,8 @@ typedef struct options {
   int command;
   int help, version, quiet;
   int no_closure;
-  const char *scene; /* file name; NULL for `pair` */
+  const char *scene;  /* file name; NULL for `pair` and `schema` */
+  const char *schema; /* a name; NULL: list them */
   int split_crossings, strict;
   double snap;    /* a tolerance; 0: not given */
   unsigned force; /* bit 1 << e for each effect e */

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Completion of hr2d for fish: commands and options are those that its help lists.
 function __hr2d_commands
-    command hr2d help 2>/dev/null | string replace -rf '^  hr2d ([a-z]+) +(?:SCENE|< PAIRS) +(.*)' '$1\t$2'
+    command hr2d help 2>/dev/null | string replace -rf '^  hr2d ([a-z]+) +(?:SCENE|< PAIRS|\[NAME\]) +(.*)' '$1\t$2'
     printf 'help\toptions of a command\n'
 end
 function __hr2d_options
