@@ -9,7 +9,16 @@
 #include <stdint.h>
 
 /* One bit each, so that an option can name the commands that it belongs to. */
-enum { INFO = 1, SOLVE = 2, STUDY = 4, FACTORS = 8, PAIR = 16, COST = 32, FIELD = 64, SCHEMA = 128 };
+enum {
+  INFO = 1,
+  SOLVE = 2,
+  STUDY = 4,
+  FACTORS = 8,
+  PAIR = 16,
+  COST = 32,
+  FIELD = 64,
+  SCHEMA = 128
+};
 
 /* PATCH:T, a point at fraction t of the patch with this index or name.  PATCH alone has no t.
  */
