@@ -19,7 +19,7 @@ typedef struct hr2di_search {
   hr2di_survey survey;
   hr2di_graded best;
   hr2di_resolution fineness;   /* of the best */
-  hr2di_primal_dual lights;    /* of patches, where there are events */
+  hr2di_primal_dual lights;    /* where there are events */
   hr2di_beam_cache beam_cache; /* of patches, if they are kept */
   hr2d_account account;        /* of the best, with all times */
   hr2d_error error;            /* of the best, the larger one of B and H */

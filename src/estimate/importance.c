@@ -101,7 +101,10 @@ static hr2d_status set_lights(hr2di_equation *eq, const hr2d_solution *solution,
                               const hr2d_target *target, const wanted *w,
                               hr2di_primal_dual *lights) {
   hr2di_transport *t = &eq->transport;
-  const size_t patches = t->hierarchy->scene->patches, values = patches * t->bands;
+  const hr2d_hierarchy *h = t->hierarchy;
+  const size_t values = h->elements * t->bands;
+  const hr2d_status status = hr2di_hierarchy_clone(h, &lights->trees);
+  if (status) return status;
   lights->radiosity = hr2di_alloc(&t->alloc, values, sizeof *lights->radiosity);
   lights->importance = hr2di_alloc(&t->alloc, values, sizeof *lights->importance);
   if (!lights->radiosity || !lights->importance) return HR2D_ENOMEM;
@@ -109,9 +112,9 @@ static hr2d_status set_lights(hr2di_equation *eq, const hr2d_solution *solution,
                           contrast_of(solution, hr2d_solution_irradiance, target));
   hr2di_transport_pull(t, eq->radiosity);
   for (size_t k = 0; k < values; k++) {
-    const size_t patch = k / t->bands, b = k % t->bands;
-    lights->radiosity[k] = hr2d_solution_average(solution, patch, b);
-    lights->importance[k] = w->max[b] > 0 ? t->up[patch * t->width + b] / w->max[b] : 0;
+    const double max = w->max[k % t->bands];
+    lights->radiosity[k] = fmax(0, solution->value[k]);
+    lights->importance[k] = max > 0 ? t->up[k / t->bands * t->width + k % t->bands] / max : 0;
   }
   return hr2di_watch_work(t->watch, values / 8);
 }
@@ -119,6 +122,7 @@ static hr2d_status set_lights(hr2di_equation *eq, const hr2d_solution *solution,
 void hr2di_primal_dual_clear(hr2di_primal_dual *lights, const hr2d_scene *scene) {
   hr2di_alloc_free(&scene->alloc, lights->radiosity);
   hr2di_alloc_free(&scene->alloc, lights->importance);
+  hr2d_hierarchy_destroy(lights->trees);
   *lights = (hr2di_primal_dual){0};
 }
 

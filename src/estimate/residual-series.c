@@ -156,7 +156,7 @@ static void saturate_kinks(hr2di_estimator *e) {
   const size_t order = e->coarse->order;
   const double ratio = (double)order / (double)t->order, theta = 1 - ratio * ratio * ratio;
   for (size_t b = 0; b < t->bands; b++) {
-    const double largest = hr2di_estimator_largest(e, 0, b);
+    const double largest = e->largest[0][b];
     for (size_t k = 0; k < t->leaves; k++) {
       double *residual = e->residual + k * t->width + b, seen = 0;
       for (size_t l = order; l < t->order; l++) seen = hypot(seen, residual[l * t->bands]);

@@ -21,16 +21,36 @@ struct hr2di_jump_worker {
   hr2d_status status;
 };
 
+/* The line past the vertex of an event. */
+typedef struct line {
+  hr2d_point from, along;
+} line;
+
+/* The leaf of a patch where a line meets it, or that nearest to where it meets the line of the
+   patch.  A foot has no line, and the patch that stands on it is nearest there. */
+static uint32_t leaf_at(const hr2di_derivative_jumps *j, uint32_t patch, line l) {
+  const hr2d_element *element = j->lights->trees->element;
+  const hr2d_segment s = j->scene->patch[patch].scaled;
+  const hr2d_point u = hr2di_point_minus(s.b, s.a), v = hr2di_point_minus(l.from, s.a);
+  const double across = hr2di_point_cross(l.along, u);
+  double t = across != 0 ? hr2di_point_cross(l.along, v) / across
+                         : hr2di_point_dot(u, v) / hr2di_point_dot(u, u);
+  uint32_t at = patch;
+  t = fmin(fmax(t, 0), 1);
+  while (element[at].child) at = hr2di_element_child_at(element, at, &t, 0);
+  return at;
+}
+
 /* sum += weight · what falls on a point between two places from B, and from the importance. */
 static hr2d_status gather(const hr2di_derivative_jumps *j, hr2di_point_viewer *viewer,
-                          size_t patch, double at, const hr2d_point border[2], double weight,
-                          double *sum) {
+                          size_t patch, double at, const hr2d_point border[2], line l,
+                          double weight, double *sum) {
   hr2di_view_from seen;
   const hr2d_status status = hr2di_view_between(viewer, patch, at, border, &seen);
   if (status) return status;
   for (size_t k = 0; k < seen.count; k++) {
     const double part = weight * seen.interval[k].sine;
-    const size_t from = seen.interval[k].patch * j->bands;
+    const size_t from = leaf_at(j, seen.interval[k].patch, l) * j->bands;
     for (size_t b = 0; b < j->bands; b++) {
       sum[b] += part * j->lights->radiosity[from + b];
       sum[j->bands + b] += part * j->lights->importance[from + b];
@@ -52,9 +72,10 @@ static hr2d_status gather_around(const hr2di_derivative_jumps *j, hr2di_point_vi
   const double side = BESIDE * move / hypot(to.x, to.y);
   const hr2d_point border[2] = {{e->past.x + side * to.y, e->past.y - side * to.x},
                                 {e->past.x - side * to.y, e->past.y + side * to.x}};
-  hr2d_status status = gather(j, viewer, e->patch, e->at, border, -2 / move, jump);
-  if (!status) status = gather(j, viewer, e->patch, e->at - step, border, 1 / move, jump);
-  return status ? status : gather(j, viewer, e->patch, e->at + step, border, 1 / move, jump);
+  const line l = {at, to};
+  hr2d_status status = gather(j, viewer, e->patch, e->at, border, l, -2 / move, jump);
+  if (!status) status = gather(j, viewer, e->patch, e->at - step, border, l, 1 / move, jump);
+  return status ? status : gather(j, viewer, e->patch, e->at + step, border, l, 1 / move, jump);
 }
 
 /* The first event that is not before a place. */
@@ -134,12 +155,14 @@ hr2d_status hr2di_derivative_jumps_look(hr2di_derivative_jumps *j) {
 
 static hr2d_status set_bounds(hr2di_derivative_jumps *j) {
   hr2d_status status = HR2D_OK;
-  for (size_t k = 0; k < j->scene->patches; k++)
+  for (size_t k = 0; k < j->lights->trees->elements && !status; k++) {
+    status = hr2di_watch_work(j->watch, 1 + j->bands / 8);
     for (size_t b = 0; b < j->bands; b++) {
       const size_t at = k * j->bands + b;
       j->max[b] = fmax(j->max[b], j->lights->radiosity[at]);
       j->max[j->bands + b] = fmax(j->max[j->bands + b], j->lights->importance[at]);
     }
+  }
   for (unsigned g = 1, any = 1; any && !status; g++) {
     any = 0;
     for (size_t k = 0; k < j->events->count && !status; k++) {

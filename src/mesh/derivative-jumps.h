@@ -4,8 +4,9 @@
    Before an event is looked at there are bounds: B itself jumps by no more than its largest
    value.  Where x passes the line of a thin wall, both of its sides come into view, and the
    jump may be twice as large.  A look gives the jump: a second difference of what a point sees
-   close beside the vertex, with the radiosities of whole patches.  The rest of the view is
-   smooth there.  Where the light may be any, the bounds stay. */
+   close beside the vertex, with the B of the element that the line past the vertex meets: on
+   a long patch that may be many times the B of the patch.  The rest of the view is smooth
+   there.  Where the light may be any, the bounds stay. */
 #ifndef HR2D_SRC_MESH_DERIVATIVE_JUMPS_H
 #define HR2D_SRC_MESH_DERIVATIVE_JUMPS_H
 

@@ -6,10 +6,11 @@
 #include "hierarchy/hierarchy-impl.h"
 #include "mesh/events.h"
 
-/* A coarse solution of the equation and of its adjoint, patches × bands: the radiosity B, and
-   the importance, that is the effect of emission on a patch on all averages that count; see
+/* A coarse solution of the equation and of its adjoint, elements × bands: the radiosity B, and
+   the importance, that is the effect of emission on an element on all averages that count; see
    importance.h. */
 typedef struct hr2di_primal_dual {
+  hr2d_hierarchy *trees; /* the elements */
   double *radiosity, *importance;
   double contrast; /* the least average of B or of H that counts, relative to the largest */
   int any_light;   /* elements are to do for all light with such a largest B */

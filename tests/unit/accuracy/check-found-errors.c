@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Scenes that climbs and users found, in which errors were up to 1e9 times their bounds: kinks
-   in whole patches of which coefficients show nothing, and links that were accepted for the
-   sake of one patch.  The truth has each patch cut in four, and ten digits; of some scenes it
-   was known before. */
+   in whole patches of which coefficients show nothing, links that were accepted for the sake of
+   one patch, and kinks beside a lamp that were weighed by the mean of a long floor.  The truth
+   has each patch cut in four, and ten digits; of some scenes it was known before. */
 #include <math.h>
 
 #include "support/support.h"
@@ -16,8 +16,8 @@ typedef struct found {
   double background, bearing; /* of a sun of irradiance 1; NAN: none */
   hr2d_sky_piece piece;       /* of radiosity 1; from = to: none */
   size_t count;
-  double patch[3][6];
-  int two[3];
+  double patch[5][6];
+  int two[5];
   size_t known; /* of this patch an average of B or, if it is black, of H is known: */
   double value;
 } found;
@@ -68,6 +68,24 @@ static const found all[] = {
       {-1.9682904444634914, 1.2856272719800472, -2.0918911769986153, 1.2994141951203346, 0,
        .94531934572884679}},
      {0, 1, 1},
+     0,
+     NAN},
+    {1.2318825175743934e-8,
+     3,
+     0,
+     NAN,
+     {0, 0},
+     5,
+     {{-1.7818250358104706, 0, 1.7818250358104706, 0, 0, .89999492326946451},
+      {-1.5869198814034462, .60004167258739471, -1.6879185661673546, .72301539778709412, 1,
+       .46320598907650679},
+      {-1.6433484368026257, .36573171243071556, -1.431598961353302, .41997651010751724, 0,
+       .86412455393991794},
+      {-.7777596227824688, .16486936807632446, -.77512466162443161, .21824926137924194, 0,
+       .4430084011092208},
+      {.50228221714496613, .30339651554822922, .29364154115319252, .49148454889655113, 0,
+       .9319428233113648}},
+     {0, 0, 1, 1, 1},
      0,
      NAN},
 };
