@@ -34,6 +34,9 @@
     (cairo_pattern_t * pattern, double offset, double red, double green, double blue),         \
     (pattern, offset, red, green, blue))                                                       \
   X(pattern_destroy, (cairo_pattern_t * pattern), (pattern))                                   \
+  X(pdf_surface_set_metadata,                                                                  \
+    (cairo_surface_t * surface, cairo_pdf_metadata_t metadata, const char *utf8),              \
+    (surface, metadata, utf8))                                                                 \
   X(rectangle, (cairo_t * cr, double x, double y, double width, double height),                \
     (cr, x, y, width, height))                                                                 \
   X(restore, (cairo_t * cr), (cr))                                                             \
