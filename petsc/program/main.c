@@ -63,6 +63,7 @@ int job_complain(const job *j, PetscErrorCode code) {
 
 static int check_options(const options *o) {
   if (o->command != SOLVE) return complain_usage("the only command is solve");
+  if (o->enclosure) return complain_usage("--enclosure is for one process: hr2d solve");
   const int status = draw_check(o->draw ? o->draw : o->tiles ? o->tiles : o->watch);
   return status ? status : options_check_outputs(o);
 }

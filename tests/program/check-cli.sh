@@ -130,8 +130,8 @@ for command in info solve study cost factors field pair schema; do
   hr2d $command --help >"$work/help"
   check "'$command -h'" same_help $command -h
   check "'help $command'" same_help help $command
-  check "'$command --help' has an example" grep -q '^For example:$' "$work/help"
-  sed '1,/^For example:$/d; /hr2d pair/d; /hr2d schema/d; s/^.*hr2d //' "$work/help" >"$work/examples"
+  check "'$command --help' has an example" grep -q '^For example:' "$work/help"
+  sed -n '/^For example:/,$ { /hr2d pair/d; /hr2d schema/d; s/^.*hr2d //p; }' "$work/help" >"$work/examples"
   while read -r example; do
     # shellcheck disable=SC2086
     run $(echo "$example" | sed "s|room.geojson|$work/none|; s|\(--[a-z]*\) \([a-z]*\.[a-z]\)|\1 $work/\2|")
@@ -656,6 +656,18 @@ check "as JSON, too" grep -q '^  "status": "incomplete"$' "$work/TERM/late.json"
 check "and fitted" grep -q '^R² = ' "$work/out"
 begin KILL 2>/dev/null
 check "a killed sweep leaves its rows, whole" whole_rows "$work/KILL/late.csv"
+
+# ---- enclosures: one element for each patch, whatever --eps was
+succeeds solve "$far" --enclosure --json "$work/enclosure.json" --no-error
+check "the table names the method" grep -q '^method    enclosure: one radiosity for each patch$' "$work/out"
+check "one element for each patch" grep -q '^elements  N = 2, of which 2 leaves' "$work/out"
+check "no link is one of the recursion limit" lacks 'recursion limit' "$work/out"
+check "JSON names it, too" grep -q '"oracle": "enclosure"' "$work/enclosure.json"
+for other in '--eps 1' '--max-level 2' '--order 2' '--oracle bf' '--variant modified' '--multigrid 1:.5'; do
+  # shellcheck disable=SC2086 # an option and its value
+  usage "--enclosure and ${other%% *} exclude each other" solve "$far" --enclosure $other
+done
+usage "--target-error and --enclosure exclude each other" solve "$far" --enclosure --target-error .1
 
 # ---- pictures
 run solve "$far" --quiet --draw "$work/probe.svg"

@@ -39,7 +39,7 @@ done <"$work/table"
 
 # ---- --help lists the options that a command takes, in two columns
 columns_are_aligned() {
-  awk '/^For example:$/ { exit }
+  awk '/^For example:/ { exit }
        !/^  --/ && !begun { next }
        { begun = 1 }
        /^$/ || /^[a-z ,]*:$/ { next }

@@ -25,8 +25,9 @@ enum {
   ONLY_WITH_TARGET = 2,
   NOT_WITH_PREDICT = 4,
   NOT_WITH_EXPONENTS = 8,
-  IS_OUTPUT = 16,    /* a file that the program writes; no other output goes there */
-  NO_PROVENANCE = 32 /* no number of a result depends on it, as none does on outputs */
+  IS_OUTPUT = 16,     /* a file that the program writes; no other output goes there */
+  NO_PROVENANCE = 32, /* no number of a result depends on it, as none does on outputs */
+  NOT_WITH_ENCLOSURE = 64
 };
 
 /* The help of an option for some commands: one or more lines, or NULL if --help does not list

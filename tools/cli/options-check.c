@@ -59,6 +59,8 @@ static int check_target(const options *o, const given_options *given) {
   if (options_targeted(o) && chosen)
     return complain_usage("--%s and --%s exclude each other",
                           o->target_error > 0 ? "target-error" : "time-budget", chosen);
+  const char *own = o->enclosure ? first_given(given, NOT_WITH_ENCLOSURE) : NULL;
+  if (own) return complain_usage("--enclosure and --%s exclude each other", own);
   if (!options_targeted(o) && detail)
     return complain_usage("--%s needs --target-error or --time-budget", detail);
   if (o->importance.count && o->norm == HR2D_NORM_SUP)

@@ -2,6 +2,7 @@
 /* The parser: words of the command line to members of `options`. */
 #include "cli/options.h"
 
+#include <float.h>
 #include <getopt.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -137,6 +138,12 @@ static options make_defaults(void) {
                    .band = BAND_DEFAULT};
 }
 
+/* Every pair of patches is a link. */
+static void set_enclosure(options *o) {
+  o->epsilon = DBL_MAX;
+  o->max_level = 0;
+}
+
 int options_read(int argc, char **argv, options *o) {
   given_options given = {{0}};
   *o = make_defaults();
@@ -150,7 +157,9 @@ int options_read(int argc, char **argv, options *o) {
   status = read_options(argc - 1, argv + 1, o, &given);
   if (status || o->help || o->version) return status;
   status = read_arguments(argc - 1, argv + 1, o);
-  return status ? status : options_check(o, &given);
+  if (!status) status = options_check(o, &given);
+  if (o->enclosure) set_enclosure(o);
+  return status;
 }
 
 void options_release(options *o) {

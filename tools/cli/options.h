@@ -118,6 +118,7 @@ typedef struct options {
   place_list importance; /* without t */
   double floor;          /* 0: not given */
   double enclose;        /* a gap; 0: not given */
+  int enclosure;         /* one radiosity for each patch */
   int error, no_error;   /* measure the error of any scene, of none */
   double most_seconds;   /* of `cost` */
   unsigned methods;      /* of `cost`, bit 1 << m for each method m */

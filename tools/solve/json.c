@@ -177,10 +177,13 @@ static json_t *target(const run *r) {
 /* The keys of the method, which every solve has; null if they mean nothing to it. */
 static void put_method(json_t **root, const run *r) {
   const options *o = r->options;
-  const int free_choice = !options_targeted(o);
+  const int free_choice = !options_targeted(o) && !o->enclosure;
   json_put(root, "order", json_count(r->account.order));
   json_put(root, "epsilon", free_choice ? json_number(o->epsilon) : json_null());
-  json_put(root, "oracle", json_text(free_choice ? o->oracle->name : "separation"));
+  json_put(root, "oracle",
+           json_text(free_choice    ? o->oracle->name
+                     : o->enclosure ? "enclosure"
+                                    : "separation"));
   json_put(root, "variant", free_choice ? json_text(o->policy->name) : json_null());
   json_put(root, "target", target(r));
 }

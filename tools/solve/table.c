@@ -97,6 +97,10 @@ static int print_places(const run *r) {
 
 static void print_method(const run *r) {
   const options *o = r->options;
+  if (o->enclosure) {
+    puts("method    enclosure: one radiosity for each patch");
+    return;
+  }
   if (!options_targeted(o)) {
     printf("method    oracle %s, variant %s, epsilon %g\n", o->oracle->name, o->policy->name,
            o->epsilon);
