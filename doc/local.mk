@@ -14,6 +14,7 @@ EXTRA_DIST += \
 	doc/mirrors-and-periods.md \
 	doc/field.md \
 	doc/occlusion.md \
+	doc/panes.md \
 	doc/releasing.md \
 	doc/scene-files.md \
 	doc/speed.md \

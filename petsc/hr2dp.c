@@ -64,6 +64,9 @@ static hr2d_status check_scene(hr2dp *p, const hr2dp_options *options) {
   if (hr2dpi_has_daylight(p->scene))
     return hr2dpi_fail(p, HR2D_EUNSUPPORTED,
                        "a sun, or a sky in pieces: hr2dp_share_create() is for their light");
+  if (hr2d_scene_effect(p->scene, HR2D_EFFECT_PANES, NULL))
+    return hr2dpi_fail(p, HR2D_EUNSUPPORTED,
+                       "panes: hr2dp_share_create() is for the light that passes them");
   /* Elements are numbered by PetscInt, patches counted by int. */
   if (p->patches > INT_MAX / 8)
     return hr2dpi_fail(p, HR2D_EUNSUPPORTED, "%zu patches are too many", p->patches);

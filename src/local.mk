@@ -86,6 +86,7 @@ libhr2d_core_la_SOURCES = \
 	src/scene/lit-parts.c \
 	src/scene/need-plane.c \
 	src/scene/one-cell.c \
+	src/scene/panes.c src/scene/panes.h \
 	src/scene/patch-runs.c src/scene/patch-runs.h \
 	src/scene/period-ends.c \
 	src/scene/period-weights.c \
@@ -116,6 +117,7 @@ libhr2d_core_la_SOURCES = \
 	src/repair/split-crossings.c \
 	src/formats/geojson.c \
 	src/formats/geojson-feature.c \
+	src/formats/geojson-surface.c \
 	src/formats/geojson-geometry.c \
 	src/formats/geojson-impl.h \
 	src/formats/geojson-meant.c src/formats/geojson-meant.h \
@@ -159,6 +161,7 @@ libhr2d_core_la_SOURCES = \
 	src/hierarchy/hierarchy.c \
 	src/hierarchy/hierarchy-impl.h \
 	src/hierarchy/image-trees.c src/hierarchy/image-trees.h \
+	src/hierarchy/pane-trees.c src/hierarchy/pane-trees.h \
 	src/hierarchy/push-pull.c src/hierarchy/push-pull.h \
 	src/hierarchy/unite.c \
 	src/oracle/built-in.h \
@@ -271,6 +274,7 @@ libhr2d_core_la_SOURCES = \
 	src/solve/power-cut-off.c src/solve/power-cut-off.h \
 	src/solve/row-sums.c src/solve/row-sums.h \
 	src/solve/row-tails.c src/solve/row-tails.h \
+	src/solve/scattering.c src/solve/scattering.h \
 	src/solve/shared-gather.c src/solve/shared-gather.h \
 	src/solve/solve.c \
 	src/solve/solve-how.h \

@@ -84,6 +84,7 @@ SUITES = \
 	tests/unit/solve/check-sky.c \
 	tests/unit/solve/check-sun.c \
 	tests/unit/solve/check-mirrors.c \
+	tests/unit/solve/check-panes.c \
 	tests/unit/solve/check-periods.c \
 	tests/unit/solve/check-closure.c \
 	tests/unit/solve/check-equation-enough.c \

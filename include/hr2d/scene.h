@@ -38,23 +38,31 @@ typedef enum hr2d_sides {
 /**
  * A patch to be added. Start from #HR2D_PATCH_INIT and set the members that differ.
  *
- * Emission and reflectance are arrays with one value per band. A single value holds for every
- * band; no value means 0. hr2d_scene_add() copies everything.
+ * Emission, reflectance and transmittance are arrays with one value per band. A single value
+ * holds for every band; no value means 0. hr2d_scene_add() copies everything.
+ *
+ * **Panes.** Patches with a transmittance τ are the sides of a pane, which scatters what falls
+ * on either side to both: B = E + ρH + τH′, with H′ at the same place on the other side. Both
+ * sides are patches, back to back and end to end, of the same τ, for light passes both ways
+ * alike; E and ρ may differ. HR2D_SIDES_BOTH adds two sides that are alike; for sides that
+ * differ add each. ρ + τ ≤ 1 on both.
  */
 typedef struct hr2d_patch {
   /** start; the front is the left of a→b */
-  hr2d_point a, b;           /**< end */
-  const char *name;          /**< UTF-8, or NULL: "patch K", with K its index */
-  const double *emission;    /**< E ≥ 0, power per scene length */
-  size_t emission_bands;     /**< number of values in `emission` */
-  const double *reflectance; /**< 0 ≤ ρ ≤ 1, dimensionless */
-  size_t reflectance_bands;  /**< number of values in `reflectance` */
-  hr2d_sides sides;          /**< HR2D_SIDES_BOTH adds two patches */
+  hr2d_point a, b;             /**< end */
+  const char *name;            /**< UTF-8, or NULL: "patch K", with K its index */
+  const double *emission;      /**< E ≥ 0, power per scene length */
+  size_t emission_bands;       /**< number of values in `emission` */
+  const double *reflectance;   /**< 0 ≤ ρ ≤ 1, dimensionless */
+  size_t reflectance_bands;    /**< number of values in `reflectance` */
+  hr2d_sides sides;            /**< HR2D_SIDES_BOTH adds two patches */
+  const double *transmittance; /**< 0 ≤ τ ≤ 1, dimensionless: that of a pane, see above */
+  size_t transmittance_bands;  /**< number of values in `transmittance` */
 } hr2d_patch;
 
 /** A black patch without emission. */
 #define HR2D_PATCH_INIT                                                                        \
-  { {0, 0}, {0, 0}, NULL, NULL, 0, NULL, 0, HR2D_SIDES_FRONT }
+  { {0, 0}, {0, 0}, NULL, NULL, 0, NULL, 0, HR2D_SIDES_FRONT, NULL, 0 }
 
 /**
  * Does what #HR2D_PATCH_INIT does, for languages without macros: sets all bytes to 0.
@@ -76,6 +84,7 @@ typedef enum hr2d_effect {
   HR2D_EFFECT_FACING,          /**< some patches see each other only in part: clipping */
   HR2D_EFFECT_BACKGROUND,      /**< light comes in through the openings of the scene */
   HR2D_EFFECT_CORNER,          /**< patches touch: the kernel is singular there */
+  HR2D_EFFECT_PANES,           /**< light passes through panes */
   HR2D_EFFECT_COUNT            /**< the number of effects */
 } hr2d_effect;
 
@@ -108,8 +117,8 @@ HR2D_API void hr2d_scene_destroy(hr2d_scene *scene);
  * @retval HR2D_ENOMEM  an allocation failed
  * @retval HR2D_EINVAL  a number of bands without values, or `sides` outside of its enumeration
  * @retval HR2D_ESTATE  the scene is committed
- * @retval HR2D_ESCENE  the length is 0, a coordinate, E or ρ is not finite, E < 0, ρ is outside
- *                      of [0,1], or the name is not UTF-8; the message names the patch
+ * @retval HR2D_ESCENE  the length is 0, a coordinate, E, ρ or τ is not finite, E < 0, ρ or τ is
+ *                      outside of [0,1], or the name is not UTF-8; the message names the patch
  *
  * Amortised constant cost.
  */
@@ -293,8 +302,9 @@ HR2D_API hr2d_status hr2d_scene_snap(hr2d_scene *scene, double tolerance,
  * @retval HR2D_ENOMEM  an allocation failed
  * @retval HR2D_ESTATE  the scene is already committed
  * @retval HR2D_ESCENE  the scene is empty; numbers of bands differ; patches cross; patches
- *                      overlap with their fronts on the same side; or patches face each other
- *                      with at most one rounding between them
+ *                      overlap with their fronts on the same side; patches face each other
+ *                      with at most one rounding between them; or a pane has one side, two
+ *                      transmittances, or ρ + τ > 1
  * @retval HR2D_ERANGE  the scales of the coordinates are so far apart that scaling would lose
  *                      digits; the scene is too far from the origin; or doubles cannot
  *                      represent a length
@@ -376,6 +386,22 @@ HR2D_API double hr2d_scene_emission(const hr2d_scene *scene, size_t patch, size_
  * @return ρ, dimensionless
  */
 HR2D_API double hr2d_scene_reflectance(const hr2d_scene *scene, size_t patch, size_t band);
+
+/**
+ * The transmittance of a patch in one band.
+ * @param scene,patch  a scene and the index of a patch
+ * @param band         below hr2d_scene_bands()
+ * @return τ, dimensionless; 0 unless the patch is a side of a pane
+ */
+HR2D_API double hr2d_scene_transmittance(const hr2d_scene *scene, size_t patch, size_t band);
+
+/**
+ * The other side of a pane.
+ * @param scene  committed; before, nobody knows it
+ * @param patch  the index of a patch
+ * @return the patch on the other side; `patch` itself unless it is a side of a pane
+ */
+HR2D_API size_t hr2d_scene_other_side(const hr2d_scene *scene, size_t patch);
 
 /**
  * The light from the surroundings in one band.

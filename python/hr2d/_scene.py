@@ -173,6 +173,7 @@ class Scene:
     def add(self, shape: Any, *, emission: Optional[Values] = None,
             reflectance: Optional[Values] = None, temperature: Optional[float] = None,
             flux: Optional[float] = None, emissivity: Optional[Values] = None,
+            transmittance: Optional[Values] = None, back: Optional[Mapping[str, Any]] = None,
             name: Optional[str] = None, sides: Optional[str] = None,
             faces: Optional[str] = None) -> range:
         """Adds patches and returns their indices.
@@ -189,6 +190,11 @@ class Scene:
         emissivity
             With a temperature or a flux: one value, or one per band, or a table of entries
             [T, value] or [T, value per band, …]; 1 by default.
+        transmittance
+            Of a pane, which scatters light to both sides; with sides="both".
+        back
+            Properties of the other side where they differ, as {"reflectance": .1}; with
+            sides="both".
         sides
             "front", or "both": each patch becomes two, back to back.  "mirror": no patch, but a
             mirror.
@@ -198,8 +204,9 @@ class Scene:
         return self.add_text(text_of(shape, {"name": name, "emission": emission,
                                              "reflectance": reflectance,
                                              "temperature": temperature, "flux": flux,
-                                             "emissivity": emissivity, "sides": sides,
-                                             "faces": faces}))
+                                             "emissivity": emissivity,
+                                             "transmittance": transmittance, "back": back,
+                                             "sides": sides, "faces": faces}))
 
     def add_text(self, text: Union[str, bytes]) -> range:
         """Adds the patches of the text of a scene file, GeoJSON or .vs2."""
@@ -332,6 +339,18 @@ class Scene:
     def reflectance(self) -> np.ndarray:
         """ρ of each patch, (patches, bands)."""
         return self._values("hr2d_scene_reflectance")
+
+    @cached_property
+    def transmittance(self) -> np.ndarray:
+        """τ of each patch, (patches, bands); 0 but on panes."""
+        return self._values("hr2d_scene_transmittance")
+
+    @cached_property
+    def other_side(self) -> np.ndarray:
+        """The patch on the other side of each pane; of other patches the patch itself."""
+        self.commit()
+        return frozen(np.array([lib.hr2d_scene_other_side(self._raw, k)
+                                for k in range(len(self))], dtype=np.intp))
 
     @property
     def background(self) -> np.ndarray:

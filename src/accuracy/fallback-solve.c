@@ -7,7 +7,7 @@
 #include "base/alloc.h"
 #include "base/clock.h"
 #include "links/linkset-impl.h"
-#include "scene/scene-impl.h"
+#include "scene/panes.h"
 #include "solution/solution-impl.h"
 
 /* Sweeps end when B changes by less than this part of the largest, or after MOST_SWEEPS. */
@@ -158,8 +158,9 @@ static hr2d_status reflect(fallback *s, const double *h, double *b, double *wors
     double change = 0, max = 0;
     for (size_t k = 0; k < s->scene->patches && !status; k++) {
       const size_t at = k * s->bands + m;
+      const size_t other = hr2di_scene_other_side(s->scene, k) * s->bands + m;
       const double next =
-          hr2d_scene_emission(s->scene, k, m) + hr2d_scene_reflectance(s->scene, k, m) * h[at];
+          hr2d_scene_emission(s->scene, k, m) + hr2di_pane_sum(s->scene, k, m, h[at], h[other]);
       if (k % 64 == 0) status = must(s, 16);
       change = fmax(change, fabs(next - b[at]));
       max = fmax(max, fabs(next));
@@ -199,8 +200,7 @@ static void sum_power(const fallback *s, hr2d_solution *made) {
       const double length = unit * patch[k].length;
       p->emitted += length * hr2d_scene_emission(s->scene, k, m);
       p->received += length * s->external[at];
-      p->absorbed +=
-          length * (1 - hr2d_scene_reflectance(s->scene, k, m)) * made->irradiance[at];
+      p->absorbed += length * hr2di_scene_absorptance(s->scene, k, m) * made->irradiance[at];
       p->escaped += length * fmax(1 - s->row[k], 0) * made->value[at];
     }
   }

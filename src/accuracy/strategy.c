@@ -78,12 +78,12 @@ static double shares_for(const hr2d_scene *scene, double aim) {
   return aim * (n > HR2DI_CHOICE_ROOMS ? 0.03 * n * sqrt(n) : 2);
 }
 
-/* The least 1 − ρ. */
+/* The least 1 − ρ, or 1 − ρ − τ. */
 static double min_lost(const hr2d_scene *scene) {
   double lost = 1;
   for (size_t k = 0; k < scene->patches; k++)
     for (size_t b = 0; b < scene->bands; b++)
-      lost = fmin(lost, 1 - hr2d_scene_reflectance(scene, k, b));
+      lost = fmin(lost, hr2di_scene_absorptance(scene, k, b));
   return lost;
 }
 

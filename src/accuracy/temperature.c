@@ -16,6 +16,7 @@
 #include "hierarchy/hierarchy-impl.h"
 #include "scene/emissivity.h"
 #include "scene/frozen-temperatures.h"
+#include "scene/panes.h"
 #include "solution/solution-impl.h"
 
 typedef struct reader {
@@ -118,16 +119,29 @@ static void put_given_heat(const hr2d_scene *scene, const hr2d_temperatures *to)
   }
 }
 
-/* A·Σ(E − (1−ρ)H), added up band by band in the arrays. */
+/* (1−ρ)f of a patch, and τ times that of the other side of a pane. */
+static double stays(const hr2d_scene *scene, size_t patch, size_t band, double own,
+                    double other) {
+  const double part = (1 - hr2d_scene_reflectance(scene, patch, band)) * own;
+  return hr2di_pane_is(scene, patch)
+             ? part + hr2d_scene_transmittance(scene, patch, band) * other
+             : part;
+}
+
+/* A·Σ(E − (1−ρ)H), of a pane with what passes it, added up band by band in the arrays. */
 static void add_heat(const reader *r, size_t band, double largest,
                      const hr2d_temperatures *to) {
   for (size_t k = 0; k < hr2di_scene_cell(r->scene); k++) {
     const double length = hr2d_scene_length(r->scene, k);
-    const double absorbance = 1 - hr2d_scene_reflectance(r->scene, k, band);
-    const double off = length * absorbance * counted(r, k, band, largest);
-    const double rounding = 4 * DBL_EPSILON * length *
-                            (fabs(hr2d_scene_emission(r->scene, k, band)) +
-                             absorbance * hr2d_solution_irradiance(r->solution, k, band));
+    const size_t other = hr2di_scene_other_side(r->scene, k);
+    const double absorbance = stays(r->scene, k, band, 1, 1);
+    const double off = length * stays(r->scene, k, band, counted(r, k, band, largest),
+                                      counted(r, other, band, largest));
+    const double rounding =
+        4 * DBL_EPSILON * length *
+        (fabs(hr2d_scene_emission(r->scene, k, band)) +
+         stays(r->scene, k, band, hr2d_solution_irradiance(r->solution, k, band),
+               hr2d_solution_irradiance(r->solution, other, band)));
     if (to->heat) to->heat[k] += length * hr2d_solution_net_flux(r->solution, k, band);
     if (to->heat_estimate) to->heat_estimate[k] += absorbance > 0 ? r->error.estimate * off : 0;
     if (to->heat_bound)

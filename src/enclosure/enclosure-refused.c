@@ -18,6 +18,8 @@ static const char *scene_reason(const hr2d_scene *scene) {
     return "suns are not enclosed: replace them by patches that emit, or rely on the estimate";
   if (scene->sky.pieces > 0)
     return "a sky in pieces is not enclosed: use an even background, or rely on the estimate";
+  if (scene->effect[HR2D_EFFECT_PANES].called_for)
+    return "panes are not enclosed: make them opaque, or rely on the estimate";
   if (hr2di_symmetry_cuts(&scene->symmetry))
     return "a period in which patches see for ever is not enclosed: draw some cells without a "
            "period, or rely on the estimate";

@@ -9,7 +9,7 @@
 #include "base/alloc.h"
 #include "base/share.h"
 #include "estimate/importance.h"
-#include "scene/scene-impl.h"
+#include "scene/panes.h"
 
 /* Averages of B, and 1 as a band behind them. */
 static void set_fields(const hr2di_estimator *e, double *field) {
@@ -21,20 +21,29 @@ static void set_fields(const hr2di_estimator *e, double *field) {
   }
 }
 
-static double worst(const hr2di_estimator *e, const double *coarse, const double *fine) {
+/* What H of a patch is off by on average. */
+static double off_at(const hr2di_estimator *e, const double *coarse, const double *fine,
+                     size_t patch, size_t b) {
   const hr2di_transport *t = &e->eq.transport;
-  const size_t bands = t->bands;
+  const size_t bands = t->bands, at = patch * (bands + 1);
+  const int closed = t->closed && t->closed[patch];
+  const double share = closed ? fine[at + bands] - coarse[at + bands] : 0;
+  const double power =
+      fine[at + b] - coarse[at + b] - share * hr2di_estimator_value(e, 0, patch, b);
+  return fabs(power) / t->hierarchy->scene->patch[patch].length;
+}
+
+static double worst(const hr2di_estimator *e, const double *coarse, const double *fine) {
+  const hr2d_scene *scene = e->eq.transport.hierarchy->scene;
+  const size_t bands = e->eq.transport.bands;
   double max = 0;
   for (size_t k = 0; k < e->values; k++) {
-    const size_t patch = k / bands, b = k % bands, at = patch * (bands + 1);
+    const size_t patch = k / bands, b = k % bands;
     if (!hr2di_is_important(e->target, patch)) continue;
-    const int closed = t->closed && t->closed[patch];
-    const double share = closed ? fine[at + bands] - coarse[at + bands] : 0;
-    const double power =
-        fine[at + b] - coarse[at + b] - share * hr2di_estimator_value(e, 0, patch, b);
-    const double h = fabs(power) / t->hierarchy->scene->patch[patch].length;
-    const double min = hr2di_estimator_min(e, 0, patch, b);
-    if (h > 0) max = fmax(max, hr2d_scene_reflectance(t->hierarchy->scene, patch, b) * h / min);
+    const double h = off_at(e, coarse, fine, patch, b);
+    const double passed = off_at(e, coarse, fine, hr2di_scene_other_side(scene, patch), b);
+    const double off = hr2di_pane_sum(scene, patch, b, h, passed);
+    if (off > 0) max = fmax(max, off / hr2di_estimator_min(e, 0, patch, b));
   }
   return max;
 }

@@ -202,7 +202,7 @@ static void complete(hr2di_contacts *c, const hr2di_transport *t, size_t k) {
     const uint32_t patch = t->hierarchy->element[t->leaf[at->leaf[side]]].patch;
     for (size_t b = 0; b < t->bands && place > 0 && place < 1; b++)
       c->residual[(2 * k + (size_t)side) * t->bands + b] +=
-          hr2d_scene_reflectance(scene, patch, b) * at->view *
+          hr2di_scene_scattered(scene, patch, b) * at->view *
           c->residual[(2 * k + 1 - (size_t)side) * t->bands + b];
   }
 }

@@ -6,7 +6,7 @@
 
 #include "base/alloc.h"
 #include "estimate/importance.h"
-#include "scene/scene-impl.h"
+#include "scene/panes.h"
 #include "solution/solution-impl.h"
 
 double hr2di_estimator_rounding(const hr2di_estimator *e) {
@@ -31,16 +31,19 @@ double hr2di_estimator_max(const hr2di_estimator *e, const double *field, size_t
 
 double hr2di_estimator_rho(const hr2di_estimator *e, size_t leaf, size_t band) {
   const hr2di_transport *t = &e->eq.transport;
-  return hr2d_scene_reflectance(t->hierarchy->scene, t->hierarchy->element[t->leaf[leaf]].patch,
-                                band);
+  return hr2di_pane_scattered(t->hierarchy->scene, t->hierarchy->element[t->leaf[leaf]].patch,
+                              band);
 }
 
 void hr2di_estimator_off(hr2di_estimator *e, double *const point[2], size_t patch, size_t band,
                          double error) {
   const hr2d_scene *scene = e->eq.transport.hierarchy->scene;
-  if (!hr2di_is_important(e->target, hr2di_scene_original(scene, patch))) return;
-  point[1][band] = fmax(point[1][band], error);
-  point[0][band] = fmax(point[0][band], hr2d_scene_reflectance(scene, patch, band) * error);
+  const size_t own = hr2di_scene_original(scene, patch),
+               other = hr2di_scene_original(scene, hr2di_scene_other_side(scene, patch));
+  const int important = hr2di_is_important(e->target, own);
+  if (important) point[1][band] = fmax(point[1][band], error);
+  if (important || hr2di_is_important(e->target, other))
+    point[0][band] = fmax(point[0][band], hr2di_pane_scattered(scene, patch, band) * error);
 }
 
 double hr2di_estimator_sky(const hr2di_estimator *e, size_t m) {

@@ -93,7 +93,7 @@ void hr2di_estimator_set_max(hr2di_estimator *e, const double *field);
 /* Lifts values of leaves, in an array of elements × bands, to all elements as the largest. */
 void hr2di_estimator_lift(const hr2di_estimator *e, double *max);
 
-/* ρ of the patch of a leaf. */
+/* ρ of the patch of a leaf, of a pane the most of ρ + τ on either side. */
 double hr2di_estimator_rho(const hr2di_estimator *e, size_t leaf, size_t band);
 
 /* Notes in `point` that H at a point of a patch is off by `error`, and B by ρ times that.  Does

@@ -30,7 +30,7 @@
 #include "geometry/apart.h"
 #include "geometry/bernstein-ellipse.h"
 #include "geometry/predicates.h"
-#include "scene/scene-impl.h"
+#include "scene/panes.h"
 #include "solution/solution-impl.h"
 
 /* Of points in the middle of two layers of 8h. */
@@ -110,7 +110,7 @@ static int is_unresolved(const hr2d_hierarchy *h, const gap *g, uint32_t i, uint
 
 static int reflects(const hr2d_scene *scene, uint32_t patch) {
   for (size_t b = 0; b < scene->bands; b++)
-    if (hr2d_scene_reflectance(scene, patch, b) > 0) return 1;
+    if (hr2di_pane_scattered(scene, patch, b) > 0) return 1;
   return 0;
 }
 
@@ -123,8 +123,8 @@ static void add_rounding(const hr2di_estimator *e, const gap *g) {
   const hr2d_scene *scene = e->eq.transport.hierarchy->scene;
   for (size_t b = 0; b < e->eq.transport.bands; b++) {
     const double rounding = rounding_at(e, g, b);
-    const double rho = fmax(hr2d_scene_reflectance(scene, g->over, b),
-                            hr2d_scene_reflectance(scene, g->end / 2, b));
+    const double rho = fmax(hr2di_pane_scattered(scene, g->over, b),
+                            hr2di_pane_scattered(scene, g->end / 2, b));
     e->stray[0][b] = fmax(e->stray[0][b], rho * rounding);
     e->stray[1][b] = fmax(e->stray[1][b], rounding);
   }
@@ -263,7 +263,7 @@ static double worst_of(const hr2di_estimator *e, const hr2di_place *at, size_t c
 
 /* H at a point of a patch is off by `error`, and by `rounding`. */
 static void add(hr2di_estimator *e, size_t patch, size_t band, double error, double rounding) {
-  const double rho = hr2d_scene_reflectance(e->eq.transport.hierarchy->scene, patch, band);
+  const double rho = hr2di_pane_scattered(e->eq.transport.hierarchy->scene, patch, band);
   hr2di_estimator_off(e, e->narrow, patch, band, error);
   /* Elements cannot be shorter because of roundings. */
   e->stray[1][band] = fmax(e->stray[1][band], error + rounding);
@@ -284,8 +284,8 @@ static void add_gap(hr2di_estimator *e, const gap *g, const hr2di_place *at,
   for (size_t b = 0; b < bands; b++) {
     const double of_p = worst_of(e, at, count[0], value, b);
     const double of_q = worst_of(e, at + count[0], count[1], value + count[0] * bands, b);
-    const double rho_p = hr2d_scene_reflectance(scene, g->over, b);
-    const double rho_q = hr2d_scene_reflectance(scene, q, b);
+    const double rho_p = hr2di_pane_scattered(scene, g->over, b);
+    const double rho_q = hr2di_pane_scattered(scene, q, b);
     const double more = 1 / (1 - REACH * REACH * rho_p * rho_q);
     const double rounding = rounding_at(e, g, b);
     add(e, q, b, more * (of_p + REACH * rho_p * of_q), rounding);

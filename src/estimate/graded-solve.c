@@ -8,6 +8,7 @@
 #include "estimate/estimator.h"
 #include "estimate/resolution.h"
 #include "hierarchy/image-trees.h"
+#include "hierarchy/pane-trees.h"
 #include "links/linkset-impl.h"
 #include "mesh/admissibility.h"
 #include "mesh/refine-marked.h"
@@ -32,11 +33,13 @@ static hr2d_status find_events(hr2di_events *events, const hr2d_hierarchy *h,
   }
 }
 
-/* Elements of images get the kinks of the elements that they are images of. */
+/* Elements of images get the kinks of the elements that they are images of; those of panes have
+   none. */
 static hr2d_status carry_kinks(hr2di_graded *a, size_t elements, hr2di_watch *watch) {
   const hr2d_hierarchy *h = a->hierarchy;
   const size_t bands = h->scene->bands;
-  if (!a->unresolved_jump || !h->scene->symmetry.motion) return HR2D_OK;
+  if (!a->unresolved_jump || (!h->scene->symmetry.motion && h->elements == elements))
+    return HR2D_OK;
   double *bent = hr2di_alloc_zero(&h->alloc, h->elements, bands * sizeof *bent);
   uint32_t *of = hr2di_alloc(&h->alloc, h->elements, sizeof *of);
   hr2d_status status = bent && of ? hr2di_image_trees_map(h, of, watch) : HR2D_ENOMEM;
@@ -49,18 +52,35 @@ static hr2d_status carry_kinks(hr2di_graded *a, size_t elements, hr2di_watch *wa
   return status;
 }
 
-/* Divides images as their patches are. */
+/* Divides both sides of panes alike, and images as their patches are. */
 static hr2d_status divide_images(hr2di_graded *a, hr2di_watch *watch) {
   const size_t elements = a->hierarchy->elements;
-  const hr2d_status status = hr2di_image_trees_unite(a->hierarchy, SIZE_MAX, watch);
+  hr2d_status status = hr2di_pane_trees_unite(a->hierarchy, SIZE_MAX, watch);
+  if (!status) status = hr2di_image_trees_unite(a->hierarchy, SIZE_MAX, watch);
   return status ? status : carry_kinks(a, elements, watch);
+}
+
+/* Events on panes are not chosen: elements of both sides end at all of them. */
+static hr2d_status find_on_panes(const hr2di_events *events, const hr2d_scene *scene,
+                                 hr2di_events *on_panes) {
+  hr2d_status status = HR2D_OK;
+  for (size_t k = 0; k < events->count && scene->other_side && !status; k++) {
+    if (hr2di_scene_other_side(scene, events->event[k].patch) == events->event[k].patch)
+      continue;
+    if (hr2di_alloc_reserve(&on_panes->alloc, &on_panes->event, &on_panes->capacity,
+                            on_panes->count + 1, sizeof *on_panes->event))
+      status = HR2D_ENOMEM;
+    else
+      on_panes->event[on_panes->count++] = events->event[k];
+  }
+  return status;
 }
 
 /* Divides the elements. */
 static hr2d_status grade(hr2di_graded *a, const hr2di_resolution *fineness,
                          const hr2d_target *target) {
   hr2d_hierarchy *h = a->hierarchy;
-  hr2di_events events = {.alloc = h->alloc};
+  hr2di_events events = {.alloc = h->alloc}, on_panes = {.alloc = h->alloc};
   hr2di_watch watch;
   hr2di_scene_watch(h->scene, &watch, target->progress, target->progress_ctx, "refine");
   hr2d_status status = find_events(&events, h, fineness->generations, target->share, &watch);
@@ -72,11 +92,13 @@ static hr2d_status grade(hr2di_graded *a, const hr2di_resolution *fineness,
                                  .corner_levels = fineness->corner_levels,
                                  .no_corner_grading = fineness->no_corner_grading,
                                  .distance = fineness->distance,
-                                 .events = chosen ? NULL : &events,
+                                 .events = chosen ? &on_panes : &events,
                                  .max_elements = target->max_elements,
                                  .watch = &watch,
                                  .threads = target->threads};
+  if (!status && chosen) status = find_on_panes(&events, h->scene, &on_panes);
   if (!status) status = hr2di_grading_apply(h, &grading, &a->survey);
+  if (!status) status = hr2di_pane_trees_unite(h, SIZE_MAX, &watch);
   if (!status && chosen)
     status =
         hr2di_events_select(h, &events, fineness->lights, fineness->kinks, target->max_elements,
@@ -85,6 +107,7 @@ static hr2d_status grade(hr2di_graded *a, const hr2di_resolution *fineness,
   if (!status) status = divide_images(a, &watch);
   a->events = events.count;
   hr2di_events_clear(&events);
+  hr2di_events_clear(&on_panes);
   return status;
 }
 

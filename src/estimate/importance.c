@@ -69,9 +69,15 @@ static hr2d_status solve_adjoint(hr2di_equation *eq, const wanted *w) {
     const size_t item = k / t->bands;
     const uint32_t patch = t->hierarchy->element[t->leaf[item / t->order]].patch;
     const size_t at = patch * t->bands + k % t->bands;
-    const double rho = eq->root_rho[k] * eq->root_rho[k];
-    eq->source[k] = item % t->order == 0 ? rho * w->of_b[at] + w->of_h[at] : 0;
+    eq->source[k] = item % t->order == 0 ? w->of_b[at] : 0;
     eq->y[k] = 0;
+  }
+  hr2di_equation_scatter(eq, eq->source);
+  for (size_t k = 0; k < eq->field && !hr2di_watch_work(t->watch, 1); k++) {
+    const size_t item = k / t->bands;
+    const uint32_t patch = t->hierarchy->element[t->leaf[item / t->order]].patch;
+    const size_t at = patch * t->bands + k % t->bands;
+    if (item % t->order == 0) eq->source[k] += w->of_h[at];
     if (eq->source[k] > 0) min = fmin(min, eq->source[k]);
     max = fmax(max, eq->source[k]);
   }

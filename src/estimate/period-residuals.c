@@ -94,8 +94,8 @@ typedef struct results {
 /* Sets eq->irradiance to Kb, and adds it to δ; averages are those of b. */
 static hr2d_status reflect(hr2di_estimator *e, double *average) {
   hr2di_equation *eq = &e->eq;
-  for (size_t k = 0; k < eq->field; k++)
-    eq->source[k] = eq->root_rho[k] * eq->root_rho[k] * e->tail[k];
+  for (size_t k = 0; k < eq->field; k++) eq->source[k] = e->tail[k];
+  hr2di_equation_scatter(eq, eq->source);
   const hr2d_status status = hr2di_estimator_solve_part(e, ENOUGH, HR2DI_AIM_ERRORS);
   if (status) return status;
   for (size_t k = 0; k < eq->field; k++) e->error[k] = eq->radiosity[k];

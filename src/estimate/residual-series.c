@@ -29,8 +29,8 @@ enum { TERMS = 5, FEW_TERMS = 2, ROUNDS = 6 };
 
 void hr2di_residual_reflect(hr2di_equation *eq, double *field) {
   hr2di_equation_gather(eq, field);
-  for (size_t k = 0; k < eq->field; k++)
-    field[k] = eq->root_rho[k] * eq->root_rho[k] * eq->irradiance[k];
+  memcpy(field, eq->irradiance, eq->field * sizeof *field);
+  hr2di_equation_scatter(eq, field);
 }
 
 /* K⁺B_h − H_h in averages, |H| in e->own, and the largest B and H; of H on leaves, as it may
@@ -95,9 +95,10 @@ static double worst_average(hr2di_estimator *e, const double *field) {
 static void set_rest(hr2di_estimator *e) {
   hr2di_equation *eq = &e->eq;
   hr2di_equation_gather(eq, e->error);
+  memcpy(eq->source, eq->irradiance, eq->field * sizeof *eq->source);
+  hr2di_equation_scatter(eq, eq->source);
   for (size_t k = 0; k < eq->field; k++)
-    eq->source[k] =
-        e->residual[k] + eq->root_rho[k] * eq->root_rho[k] * eq->irradiance[k] - e->error[k];
+    eq->source[k] = e->residual[k] + eq->source[k] - e->error[k];
 }
 
 /* Sets e->error to the first terms, and the source to the last of them. */
@@ -204,7 +205,7 @@ static void add_nearby(hr2di_estimator *e, uint32_t receiver, uint32_t source) {
   const uint32_t patch = t->hierarchy->element[receiver].patch;
   double rho = 0;
   for (size_t b = 0; b < t->bands; b++)
-    rho = fmax(rho, hr2d_scene_reflectance(t->hierarchy->scene, patch, b));
+    rho = fmax(rho, hr2di_scene_scattered(t->hierarchy->scene, patch, b));
   for (size_t b = 0; b < t->bands && !(rho > 0); b++)
     hr2di_estimator_off(e, e->point, patch, b, NEARBY * e->max[source * t->bands + b]);
 }

@@ -28,7 +28,7 @@
 #include <math.h>
 
 #include "estimate/coordinate-rounding.h"
-#include "scene/scene-impl.h"
+#include "scene/panes.h"
 #include "solve/closure.h"
 
 /* Of 1 − Σ. */
@@ -216,11 +216,15 @@ static void add_own(hr2di_estimator *e) {
           HR2DI_ESTIMATOR_ROUNDING * e->level[leaf * t->bands + b];
 }
 
-/* Of B on a leaf: ρ times that of H, and its own, as B or as c + z. */
+/* Of B on a leaf: ρ times that of H, with τ of a pane, and its own, as B or as c + z. */
 static double rounding_of_b(const hr2di_estimator *e, size_t leaf, size_t band) {
-  const size_t at = leaf * e->eq.transport.bands + band;
+  const hr2di_transport *t = &e->eq.transport;
+  const size_t at = leaf * t->bands + band,
+               other = (t->other_leaf ? t->other_leaf[leaf] : leaf) * t->bands + band;
   const double terms = hr2di_estimator_max(e, e->rest, leaf, band) + e->level[at];
-  return hr2di_estimator_rho(e, leaf, band) * e->off[0][at] + HR2DI_ESTIMATOR_ROUNDING * terms;
+  return hr2di_pane_sum(t->hierarchy->scene, t->hierarchy->element[t->leaf[leaf]].patch, band,
+                        e->off[0][at], e->off[0][other]) +
+         HR2DI_ESTIMATOR_ROUNDING * terms;
 }
 
 hr2d_status hr2di_rounding_bound(hr2di_estimator *e, int reflects) {

@@ -22,7 +22,7 @@
 
 #include "estimate/importance.h"
 #include "estimate/residual-series.h"
-#include "scene/scene-impl.h"
+#include "scene/panes.h"
 
 /* The relative accuracy of the solve for a row, and of that for a sample. */
 #define ROW    3e-2
@@ -53,9 +53,11 @@ static hr2d_status sample(hr2di_estimator *e) {
   hr2di_transport_pull(t, eq->irradiance);
   for (size_t k = 0; k < e->values; k++) {
     const size_t patch = k / t->bands, b = k % t->bands;
+    const size_t other = hr2di_scene_other_side(t->hierarchy->scene, patch);
     const double h = first[k] + t->up[patch * t->width + b];
-    const double rho = hr2d_scene_reflectance(t->hierarchy->scene, patch, b);
-    e->rounding[0][k] = hypot(e->average[0][k], own[k] + rho * h);
+    const double passed = first[other * t->bands + b] + t->up[other * t->width + b];
+    const double reflected = hr2di_pane_sum(t->hierarchy->scene, patch, b, h, passed);
+    e->rounding[0][k] = hypot(e->average[0][k], own[k] + reflected);
     e->rounding[1][k] = hypot(e->average[1][k], h);
   }
   return HR2D_OK;
@@ -76,6 +78,13 @@ static size_t worst_patch(const hr2di_estimator *e, int irradiance, size_t band)
   return found;
 }
 
+/* An average of B on a pane has both sides: Z that both make has ρ + τ for ρ then, and is that
+   of either side alone or more. */
+static int is_of(const hr2di_transport *t, size_t leaf, size_t patch) {
+  const size_t own = t->hierarchy->element[t->leaf[leaf]].patch;
+  return own == patch || own == hr2di_scene_other_side(t->hierarchy->scene, patch);
+}
+
 /* Sets the source to 1/(A H̄) of a patch in each band. */
 static void set_source(hr2di_estimator *e, int choice) {
   hr2di_equation *eq = &e->eq;
@@ -85,7 +94,7 @@ static void set_source(hr2di_estimator *e, int choice) {
     const size_t patch = worst_patch(e, choice, b);
     const double min = hr2di_estimator_min(e, 1, patch, b);
     for (size_t leaf = 0; leaf < t->leaves && min > 0; leaf++)
-      if (t->hierarchy->element[t->leaf[leaf]].patch == patch)
+      if (is_of(t, leaf, patch))
         eq->source[leaf * t->width + b] = 1 / min / t->hierarchy->element[patch].length;
   }
 }
@@ -167,7 +176,7 @@ static hr2d_status sum_rows(hr2di_estimator *e, int choice) {
     const double min = hr2di_estimator_min(e, 0, patch, b);
     const double ratio = hr2di_estimator_min(e, 1, patch, b) / min;
     double sum[2], scatter[2];
-    sum_row(e, b, min > 0 ? hr2d_scene_reflectance(scene, patch, b) * ratio : 0, sum, scatter);
+    sum_row(e, b, min > 0 ? hr2di_pane_scattered(scene, patch, b) * ratio : 0, sum, scatter);
     for (int h = 0; h < 2; h++) {
       const size_t at = (size_t)h * bands + b;
       e->safe[at] = fmax(e->safe[at], sum[h]);

@@ -46,26 +46,6 @@ static const char *text_of_name(hr2di_geojson *reader, const json_t *name) {
   return reader->numeral;
 }
 
-static hr2d_status read_light(hr2di_geojson *reader, const json_t *properties) {
-  hr2d_patch *patch = &reader->patch;
-  hr2d_status status = hr2di_geojson_values(reader, reader->label, "emission",
-                                            hr2di_geojson_member(properties, "emission"),
-                                            DBL_MAX, &reader->emission, &patch->emission_bands);
-  if (status) return status;
-  status = hr2di_geojson_values(reader, reader->label, "reflectance",
-                                hr2di_geojson_member(properties, "reflectance"), 1,
-                                &reader->reflectance, &patch->reflectance_bands);
-  if (status) return status;
-  if (patch->emission_bands > 1 && patch->reflectance_bands > 1 &&
-      patch->emission_bands != patch->reflectance_bands)
-    return hr2di_message_fail(reader->message, HR2D_ESCENE,
-                              "%s: emission has %zu bands, reflectance has %zu", reader->label,
-                              patch->emission_bands, patch->reflectance_bands);
-  patch->emission = reader->emission.value;
-  patch->reflectance = reader->reflectance.value;
-  return HR2D_OK;
-}
-
 static hr2d_status check_type(hr2di_geojson *reader, const json_t *feature,
                               const json_t *properties) {
   const char *type = json_string_value(json_object_get(feature, "type"));
@@ -94,9 +74,9 @@ hr2d_status hr2di_geojson_feature(hr2di_geojson *reader, const json_t *feature, 
   if (named && !name)
     hr2di_notes_add(&reader->notes, HR2D_WARNING_IGNORED, "name", reader->label,
                     "a name is a text or a number");
-  if (!status) status = hr2di_geojson_thermal(reader, properties);
-  if (!status && !reader->thermal.given) status = read_light(reader, properties);
+  if (!status) status = hr2di_geojson_surface(reader, properties);
   if (!status) status = hr2di_geojson_sides(reader, properties);
+  if (!status) status = hr2di_geojson_back(reader, properties);
   if (!status)
     status = read_choice(reader, properties, "faces", "in", "out", &reader->faces_out);
   if (status) return status;

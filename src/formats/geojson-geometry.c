@@ -178,6 +178,31 @@ static hr2d_status set_name(hr2di_geojson *reader, hr2d_patch *patch) {
   return HR2D_OK;
 }
 
+/* The first patch of a feature, or one that is like it. */
+static hr2d_status add_side(hr2di_geojson *reader, const hr2d_patch *patch,
+                            const hr2d_thermal *thermal, size_t like) {
+  if (reader->added) return hr2di_scene_add_alike(reader->scene, patch, like);
+  return thermal->given ? hr2d_scene_add_thermal(reader->scene, patch, thermal, NULL)
+                        : hr2d_scene_add(reader->scene, patch, NULL);
+}
+
+/* The back of the patch that was added last. */
+static hr2d_status add_back(hr2di_geojson *reader, const hr2d_patch *front) {
+  const size_t number = hr2d_scene_patches(reader->scene) - 1;
+  const char *name = hr2d_scene_name(reader->scene, number);
+  hr2d_patch patch = reader->back;
+  char *made = hr2di_alloc(reader->alloc, strlen(name) + sizeof " (back)", 1);
+  if (!made) return hr2di_message_fail(reader->message, HR2D_ENOMEM, "out of memory");
+  sprintf(made, "%s (back)", name);
+  patch.a = front->b;
+  patch.b = front->a;
+  patch.sides = HR2D_SIDES_FRONT;
+  patch.name = made;
+  const hr2d_status status = add_side(reader, &patch, &reader->back_thermal, reader->first + 1);
+  hr2di_alloc_free(reader->alloc, made);
+  return status;
+}
+
 static hr2d_status add_segment(hr2di_geojson *reader, hr2d_point a, hr2d_point b) {
   hr2d_patch patch = reader->patch;
   hr2d_status status = set_name(reader, &patch);
@@ -186,12 +211,11 @@ static hr2d_status add_segment(hr2di_geojson *reader, hr2d_point a, hr2d_point b
   patch.b = b;
   status = hr2di_watch_work(reader->watch, 4);
   if (status) return status;
-  if (reader->added++)
-    status = hr2di_scene_add_alike(reader->scene, &patch);
-  else if (reader->thermal.given)
-    status = hr2d_scene_add_thermal(reader->scene, &patch, &reader->thermal, NULL);
-  else
-    status = hr2d_scene_add(reader->scene, &patch, NULL);
+  if (reader->has_back) patch.sides = HR2D_SIDES_FRONT;
+  if (!reader->added) reader->first = hr2d_scene_patches(reader->scene);
+  status = add_side(reader, &patch, &reader->thermal, reader->first);
+  if (!status && reader->has_back) status = add_back(reader, &patch);
+  reader->added++;
   if (!status || status == HR2D_ENOMEM) return status;
   return hr2di_message_fail(reader->message, status, "%s: %s", reader->label,
                             reader->message->text);

@@ -36,8 +36,12 @@ typedef struct hr2di_geojson {
   char numeral[32];             /* its name, if that is a number */
   hr2d_patch patch;             /* the members that its segments have in common */
   hr2d_thermal thermal;         /* theirs, too, unless none is given */
-  int is_mirror;                /* it is no patch */
-  int faces_out;                /* fronts of its polygons look out */
+  int has_back;                 /* the other side has properties of its own: */
+  hr2d_patch back;
+  hr2d_thermal back_thermal;
+  size_t first;  /* the patch of its first segment, behind which that of the back comes */
+  int is_mirror; /* it is no patch */
+  int faces_out; /* fronts of its polygons look out */
   size_t segments, added;
 
   /* The wavelengths that the scene had, if this file has others. */
@@ -55,7 +59,8 @@ typedef struct hr2di_geojson {
   int periodic; /* a period is given */
 
   /* Buffers that are kept from feature to feature. */
-  hr2di_values background, emission, reflectance;
+  hr2di_values background, emission, reflectance, transmittance;
+  hr2di_values back_emission, back_reflectance, back_transmittance;
   hr2d_point *point;
   size_t point_capacity;
   char *name;
@@ -71,6 +76,13 @@ hr2d_status hr2di_geojson_geometry(hr2di_geojson *reader, const json_t *geometry
 
 /* Whether this is an object of the type of a geometry. */
 int hr2di_geojson_is_geometry(const json_t *json);
+
+/* Reads what the current feature, or the back of it, emits, reflects and lets through, into
+   reader->patch and reader->thermal. */
+hr2d_status hr2di_geojson_surface(hr2di_geojson *reader, const json_t *properties);
+
+/* Reads the properties of the back, if it has its own. */
+hr2d_status hr2di_geojson_back(hr2di_geojson *reader, const json_t *properties);
 
 /* Reads the thermal properties of the current feature. */
 hr2d_status hr2di_geojson_thermal(hr2di_geojson *reader, const json_t *properties);

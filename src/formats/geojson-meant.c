@@ -14,11 +14,17 @@
 #define FACES    "write \"faces\": \"in\" or \"out\""
 #define GREY     "the property is called \"reflectance\""
 #define KELVIN   "write \"temperature\" in kelvin, degrees Celsius + 273.15"
-#define OPAQUE   "walls are opaque: what passes through them is no part of this model"
-#define DIFFUSE  "walls reflect and emit diffusely: gloss is no part of this model"
-#define MIRROR   "write \"sides\": \"mirror\" for a line of symmetry; walls reflect diffusely"
-#define SUN      "light from a direction is a \"sun\" in the member \"hr2d\""
-#define HEAT     "write \"flux\", the net heat flux that leaves, or \"emission\""
+#define PANE     "write \"transmittance\", of a pane that scatters what passes through it"
+#define CLEAR                                                                                  \
+  "what passes through a pane is scattered, by \"transmittance\": refraction and "             \
+  "clear glass are no part of this model"
+#define DIFFUSE "walls reflect and emit diffusely: gloss is no part of this model"
+#define AXIS                                                                                   \
+  "a scene is a section across something long: bodies of revolution are no part "              \
+  "of this model"
+#define MIRROR "write \"sides\": \"mirror\" for a line of symmetry; walls reflect diffusely"
+#define SUN    "light from a direction is a \"sun\" in the member \"hr2d\""
+#define HEAT   "write \"flux\", the net heat flux that leaves, or \"emission\""
 
 /* A name in small letters, the property that replaces it, or "" if there is none, and what to
    do. */
@@ -32,6 +38,9 @@ static const meant properties_meant[] = {
     {"absorption", "reflectance", "write \"reflectance\": 1 - absorptance"},
     {"absorptivity", "reflectance", "write \"reflectance\": 1 - absorptivity"},
     {"albedo", "reflectance", GREY},
+    {"axis", "", AXIS},
+    {"axisymmetric", "", AXIS},
+    {"axisymmetry", "", AXIS},
     {"brightness", "emission", EMISSION},
     {"celsius", "temperature", KELVIN},
     {"color", "reflectance", BANDS},
@@ -44,49 +53,52 @@ static const meant properties_meant[] = {
     {"epsilon", "reflectance", REFLECTANCE},
     {"exitance", "emission", EMISSION},
     {"facing", "faces", FACES},
+    {"gloss", "", DIFFUSE},
     {"glossiness", "", DIFFUSE},
     {"glossy", "", DIFFUSE},
     {"heat", "flux", HEAT},
     {"heat_flux", "flux", HEAT},
     {"heatflux", "flux", HEAT},
     {"illuminance", "emission", EMISSION},
-    {"index_of_refraction", "", OPAQUE},
-    {"ior", "", OPAQUE},
+    {"index_of_refraction", "transmittance", CLEAR},
+    {"ior", "transmittance", CLEAR},
     {"irradiance", "emission", SUN},
     {"kelvin", "temperature", "the property is called \"temperature\""},
     {"luminance", "emission", EMISSION},
     {"luminosity", "emission", EMISSION},
     {"mirror", "sides", MIRROR},
-    {"opacity", "", OPAQUE},
+    {"opacity", "transmittance", PANE},
     {"power", "emission", EMISSION},
     {"radiance", "emission", EMISSION},
     {"radiosity", "emission", EMISSION},
     {"reflection", "reflectance", GREY},
     {"reflective", "reflectance", GREY},
     {"reflectivity", "reflectance", GREY},
-    {"refraction", "", OPAQUE},
-    {"refractive_index", "", OPAQUE},
+    {"refraction", "transmittance", CLEAR},
+    {"refractive_index", "transmittance", CLEAR},
     {"rho", "reflectance", GREY},
     {"roughness", "", DIFFUSE},
     {"shininess", "", DIFFUSE},
     {"side", "sides", BOTH},
     {"specular", "", DIFFUSE},
+    {"specular_fraction", "", DIFFUSE},
+    {"specular_reflectance", "", DIFFUSE},
     {"specularity", "", DIFFUSE},
-    {"tau", "", OPAQUE},
+    {"tau", "transmittance", "the property is called \"transmittance\""},
     {"temp", "temperature", KELVIN},
-    {"translucency", "", OPAQUE},
-    {"translucent", "", OPAQUE},
-    {"transmission", "", OPAQUE},
-    {"transmissivity", "", OPAQUE},
-    {"transmittance", "", OPAQUE},
-    {"transparency", "", OPAQUE},
-    {"transparent", "", OPAQUE},
+    {"translucency", "transmittance", PANE},
+    {"translucent", "transmittance", PANE},
+    {"transmission", "transmittance", "the property is called \"transmittance\""},
+    {"transmissivity", "transmittance", "the property is called \"transmittance\""},
+    {"transparency", "transmittance", PANE},
+    {"transparent", "transmittance", PANE},
     {"two_sided", "sides", BOTH},
     {"twosided", "sides", BOTH}};
 
 /* Where the members of the format belong. */
-static const char *const of_properties[] = {"emission", "emissivity",  "faces", "flux",
-                                            "name",     "reflectance", "sides", "temperature"};
+static const char *const of_properties[] = {
+    "back", "emission",    "emissivity", "faces",       "flux",
+    "name", "reflectance", "sides",      "temperature", "transmittance"};
 static const char *const of_scene[] = {
     "background", "background_temperature", "medium", "period", "sky", "sun", "wavelengths"};
 
@@ -173,7 +185,8 @@ static const meant properties_typed[] = {
     {"emission", "emission", "the property is called \"emission\""},
     {"emissivity", "emissivity", "the property is called \"emissivity\""},
     {"reflectance", "reflectance", "the property is called \"reflectance\""},
-    {"temperature", "temperature", "the property is called \"temperature\""}};
+    {"temperature", "temperature", "the property is called \"temperature\""},
+    {"transmittance", "transmittance", "the property is called \"transmittance\""}};
 
 static const meant *find_mistyped(const meant *table, size_t count, const char *key) {
   for (size_t k = 0; k < count; k++)
@@ -249,7 +262,11 @@ static void note_root_member(hr2di_geojson *reader, const json_t *root, const ch
 
 static void note_scene_member(hr2di_geojson *reader, const json_t *members, const char *key) {
   const small s = in_small_letters(key);
-  if (!note_spelling(reader, members, "hr2d", key, find(of_scene, COUNT(of_scene), s.text)))
+  const meant *m = find_meant(s.text);
+  if (m && !*m->instead)
+    hr2di_notes_add(&reader->notes, HR2D_WARNING_IGNORED, key, "hr2d", m->advice);
+  else if (!note_spelling(reader, members, "hr2d", key,
+                          find(of_scene, COUNT(of_scene), s.text)))
     hr2di_notes_add(&reader->notes, HR2D_WARNING_IGNORED, key, "hr2d",
                     "members of \"hr2d\" are \"background\", \"background_temperature\", "
                     "\"medium\", \"period\", \"sky\", \"sun\" and \"wavelengths\"");
@@ -286,4 +303,18 @@ hr2d_status hr2di_geojson_note_feature(hr2di_geojson *reader, const json_t *feat
   hr2d_status status = each(reader, feature, note_feature_member);
   if (status) return status;
   return each(reader, hr2di_geojson_member(feature, "properties"), note_property);
+}
+
+/* What a feature has of its geometry and its name holds for both sides. */
+static void note_back_member(hr2di_geojson *reader, const json_t *back, const char *key) {
+  static const char *const of_feature[] = {"back", "faces", "name", "sides"};
+  if (find(of_feature, COUNT(of_feature), in_small_letters(key).text))
+    hr2di_notes_add(&reader->notes, HR2D_WARNING_IGNORED, key, reader->label,
+                    "both sides have it of the feature");
+  else
+    note_property(reader, back, key);
+}
+
+hr2d_status hr2di_geojson_note_back(hr2di_geojson *reader, const json_t *back) {
+  return each(reader, back, note_back_member);
 }

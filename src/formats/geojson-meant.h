@@ -6,8 +6,9 @@
 #include "formats/geojson-impl.h"
 
 /* Each makes notes on one object: the collection, its member "hr2d", a feature and its
-   properties.  HR2D_OK or the status of the watch. */
+   properties, those of a back.  HR2D_OK or the status of the watch. */
 hr2d_status hr2di_geojson_note_root(hr2di_geojson *reader, const json_t *root);
 hr2d_status hr2di_geojson_note_feature(hr2di_geojson *reader, const json_t *feature);
+hr2d_status hr2di_geojson_note_back(hr2di_geojson *reader, const json_t *back);
 
 #endif

@@ -134,6 +134,10 @@ hr2d_status hr2di_geojson_read(hr2d_scene *scene, const char *text, size_t size,
   hr2di_sky_clear(&reader.sky, reader.alloc);
   hr2di_alloc_free(reader.alloc, reader.emission.value);
   hr2di_alloc_free(reader.alloc, reader.reflectance.value);
+  hr2di_alloc_free(reader.alloc, reader.transmittance.value);
+  hr2di_alloc_free(reader.alloc, reader.back_emission.value);
+  hr2di_alloc_free(reader.alloc, reader.back_reflectance.value);
+  hr2di_alloc_free(reader.alloc, reader.back_transmittance.value);
   hr2di_alloc_free(reader.alloc, reader.point);
   hr2di_alloc_free(reader.alloc, reader.name);
   return status;

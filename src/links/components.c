@@ -16,6 +16,16 @@ static void join(hr2di_components *c, size_t i, size_t j) {
   hr2di_union_join(c->parent, (uint32_t)i, (uint32_t)j);
 }
 
+static int passes(const hr2d_scene *scene, size_t patch, size_t band) {
+  return hr2di_scene_other_side(scene, patch) != patch &&
+         (band == SIZE_MAX || hr2d_scene_transmittance(scene, patch, band) > 0);
+}
+
+void hr2di_components_join_panes(hr2di_components *c, const hr2d_scene *scene, size_t band) {
+  for (size_t k = 0; scene->other_side && k < scene->patches; k++)
+    if (passes(scene, k, band)) join(c, k, hr2di_scene_other_side(scene, k));
+}
+
 /* A link of two clusters means that all patches of one see all patches of the other.  Without
    such links no patch has a home. */
 static void join_clusters(hr2di_components *c, const hr2di_clusters *clusters, size_t patches) {
@@ -59,6 +69,7 @@ hr2d_status hr2di_components_init(hr2di_components *c, const hr2d_linkset *links
   const hr2di_clusters *clusters = links->roots.clusters;
   const size_t count = patches + (clusters ? clusters->linked_count : 0);
   c->alloc = links->alloc;
+  c->count = count;
   c->parent = count <= UINT32_MAX ? hr2di_alloc(&links->alloc, count, sizeof *c->parent) : NULL;
   if (!c->parent) return HR2D_ENOMEM;
   for (size_t k = 0; k < count; k++) c->parent[k] = (uint32_t)k;

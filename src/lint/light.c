@@ -4,7 +4,7 @@
 
 static int absorbs(const hr2d_scene *scene, size_t band) {
   size_t k = 0;
-  while (k < hr2di_scene_cell(scene) && hr2d_scene_reflectance(scene, k, band) == 1) k++;
+  while (k < hr2di_scene_cell(scene) && !(hr2di_scene_absorptance(scene, k, band) > 0)) k++;
   return k < hr2di_scene_cell(scene);
 }
 

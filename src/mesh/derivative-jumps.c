@@ -97,18 +97,21 @@ static size_t origin_of(const hr2di_derivative_jumps *j, size_t k) {
   const hr2di_event *e = &j->events->event[k];
   const size_t from = hr2di_derivative_jumps_find(j->events, e->origin, e->origin_at);
   return from < j->events->count && j->events->event[from].patch == e->origin &&
-                 j->events->event[from].generation < e->generation
+                 (j->events->event[from].generation < e->generation ||
+                  (e->passed && !j->events->event[from].passed))
              ? from
              : k;
 }
 
-/* The importance of light that y reflects is ρ times what falls there, as its radiosity is. */
+/* The importance of light that y reflects is ρ times what falls there, as its radiosity is.  On
+   a pane ρ + τ is a bound of that on both sides. */
 static void take_over(hr2di_derivative_jumps *j, size_t k, size_t from) {
   const hr2di_event *e = &j->events->event[k];
-  for (size_t b = 0; b < 2 * j->bands; b++)
-    j->jump[k * 2 * j->bands + b] = e->spread *
-                                    hr2d_scene_reflectance(j->scene, e->origin, b % j->bands) *
-                                    j->jump[from * 2 * j->bands + b];
+  for (size_t b = 0; b < 2 * j->bands; b++) {
+    const double rho = hr2di_scene_scattered(j->scene, e->origin, b % j->bands);
+    j->jump[k * 2 * j->bands + b] =
+        (e->passed ? 1 : e->spread * rho) * j->jump[from * 2 * j->bands + b];
+  }
 }
 
 hr2d_status hr2di_derivative_jumps_know(hr2di_derivative_jumps *j, size_t k) {

@@ -52,12 +52,12 @@ hr2d_status hr2di_event_list_add(hr2di_event_list *l, const hr2di_event_candidat
   return HR2D_OK;
 }
 
-enum { WIDTH = 9 };
+enum { WIDTH = 10 };
 
 static void write(const hr2di_event_candidate *c, double *record) {
   const hr2di_event e = c->event;
   const double value[WIDTH] = {e.patch,  e.at,     e.generation, e.origin, e.origin_at,
-                               e.past.x, e.past.y, e.spread,     c->via};
+                               e.past.x, e.past.y, e.spread,     c->via,   e.passed};
   for (int k = 0; k < WIDTH; k++) record[k] = value[k];
 }
 
@@ -68,6 +68,7 @@ static hr2di_event_candidate read(const double *record) {
                                   .origin = (uint32_t)record[3],
                                   .origin_at = record[4],
                                   .past = {record[5], record[6]},
+                                  .passed = (int)record[9],
                                   .spread = record[7]},
                                  (uint32_t)record[8]};
 }

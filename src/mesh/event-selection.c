@@ -89,7 +89,7 @@ static void weigh_band(const cutter *c, leaf *l, size_t b) {
     for (size_t m = 0; m < 2; m++)
       sum[m] += c->square[k][m] = square_of(c, remainder, k, b + m * c->bands);
   }
-  const double rho = hr2d_scene_reflectance(c->scene, patch, b);
+  const double rho = hr2di_scene_scattered(c->scene, patch, b);
   const double share = fmin(rho * unit * sqrt(sum[0]) * sqrt(sum[1]), LARGEST);
   if (!(share > l->sum)) return;
   l->sum = share;
@@ -242,7 +242,7 @@ static void add_remainder(const cutter *c, const leaf *l, size_t k, double *unre
   const hr2di_event *e = &c->events->event[k];
   const double a = sqrt(remainder_of(c, l, e));
   for (size_t b = 0; b < c->bands; b++) {
-    const double rho = hr2d_scene_reflectance(c->scene, e->patch, b);
+    const double rho = hr2di_scene_scattered(c->scene, e->patch, b);
     double *of = &unresolved_jump[l->element * c->bands + b];
     if (c->jumps.max[b] > 0)
       *of = hypot(*of, rho * c->jumps.jump[k * 2 * c->bands + b] / c->jumps.max[b] * a);

@@ -89,7 +89,7 @@ static hr2d_status take(void *ctx, uint32_t patch, double at, uint32_t via) {
 
 static int reflects(const hr2d_scene *scene, size_t patch) {
   for (size_t band = 0; band < scene->bands; band++)
-    if (hr2d_scene_reflectance(scene, patch, band) > 0) return 1;
+    if (hr2di_scene_scattered(scene, patch, band) > 0) return 1;
   return 0;
 }
 
@@ -172,8 +172,8 @@ static hr2d_status find_origins(finder *f, unsigned generation) {
   for (size_t k = 0; k < f->list.count && !status; k++) {
     const candidate c = f->list.found[k];
     status = hr2di_watch_work(f->watch, 1 + f->scene->bands / 32);
-    if (status || c.event.generation != generation || c.via == HR2DI_NO_VERTEX ||
-        !reflects(f->scene, c.event.patch))
+    if (status || c.event.generation != generation ||
+        (c.via == HR2DI_NO_VERTEX && !c.event.passed) || !reflects(f->scene, c.event.patch))
       continue;
     if (hr2di_alloc_reserve(&f->alloc, &f->origin, &f->origin_capacity, f->origins + 1,
                             sizeof *f->origin))
@@ -200,19 +200,45 @@ static hr2d_status view_from_events(finder *f, unsigned generation) {
   return status ? status : trace_from_all(f, f->origins, view_from_event);
 }
 
+static hr2d_status view_from_border(finder *f, uint32_t patch, hr2d_point at) {
+  if (!reflects(f->scene, patch)) return HR2D_OK;
+  const hr2di_side_part *part = part_at(f->scene, patch, at);
+  return part->patch == patch && part->side != HR2DI_HIDDEN
+             ? hr2di_event_beams_from_part(&f->beams, at, part, HR2DI_NO_VERTEX)
+             : HR2D_OK;
+}
+
 /* B jumps at a border of sunlight as it does at the end of a patch. */
 static hr2d_status view_from_borders(finder *f) {
   const hr2di_sunlight *l = &f->scene->sunlight;
   hr2d_status status = HR2D_OK;
   for (size_t k = 0; k < l->borders && !status; k++) {
     const hr2di_sun_border *b = &l->border[k];
+    const uint32_t other = (uint32_t)hr2di_scene_other_side(f->scene, b->patch);
     status = hr2di_watch_work(f->watch, 1 + f->scene->bands / 32);
-    if (status || !reflects(f->scene, b->patch)) continue;
-    const hr2di_side_part *part = part_at(f->scene, b->patch, b->point);
-    if (part->patch == b->patch && part->side != HR2DI_HIDDEN)
-      status = hr2di_event_beams_from_part(&f->beams, b->point, part, HR2DI_NO_VERTEX);
+    if (!status) status = view_from_border(f, b->patch, b->point);
+    if (!status && other != b->patch) status = view_from_border(f, other, b->point);
   }
   return status;
+}
+
+/* What makes a kink in H on one side of a pane makes one in B on the other. */
+static hr2d_status pass_through_panes(finder *f, unsigned generation) {
+  const size_t count = f->list.count;
+  hr2d_status status = HR2D_OK;
+  for (size_t k = 0; k < count && f->scene->other_side && !status; k++) {
+    hr2di_event e = f->list.found[k].event;
+    const uint32_t other = (uint32_t)hr2di_scene_other_side(f->scene, e.patch);
+    status = hr2di_watch_work(f->watch, 1);
+    if (status || e.generation != generation || other == e.patch || e.passed) continue;
+    e.origin = e.patch;
+    e.origin_at = e.at;
+    e.patch = other;
+    e.at = 1 - e.at;
+    e.passed = 1;
+    status = hr2di_event_list_add(&f->list, &(candidate){e, HR2DI_NO_VERTEX});
+  }
+  return status || f->list.count == count ? status : hr2di_event_list_settle(&f->list);
 }
 
 /* H of the sky has a kink where the edge of a piece comes into sight.  Elements end there at
@@ -264,10 +290,12 @@ static hr2d_status find(finder *f, unsigned generations) {
   if (!status) status = add_kinks(f);
   if (!status && generations > 0) status = add_feet(f);
   if (!status) status = hr2di_event_list_settle(&f->list);
+  for (unsigned g = 0; g < 2 && !status; g++) status = pass_through_panes(f, g);
   for (unsigned g = 2; g <= generations && !status; g++) {
     status = view_from_events(f, g);
     if (!status && f->origins == 0) break;
     if (!status) status = hr2di_event_list_settle(&f->list);
+    if (!status) status = pass_through_panes(f, g);
   }
   /* A walk that the watch has stopped ends nowhere. */
   return status ? status : hr2di_watch_status(f->watch);

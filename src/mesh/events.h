@@ -6,7 +6,8 @@
    vertex, the end of a source, is exactly behind the other, the end of something in the way;
    or both are the ends of one patch, and the line is its horizon.  The foot of a patch that
    ends on the front is an event, too.  Between two events of generation 1 the same things are
-   seen in the same order.  There are no events on patches that no light reaches; events on
+   seen in the same order.  On a pane the other side has an event at the same place.  There are
+   no events on patches that no light reaches; events on
    patches that do not reflect have no successors. */
 #ifndef HR2D_SRC_MESH_EVENTS_H
 #define HR2D_SRC_MESH_EVENTS_H
@@ -27,8 +28,9 @@ typedef struct hr2di_event {
   double origin_at;
   hr2d_point past; /* the vertex on the line that is nearest, in coordinates of
                       hr2di_patch::scaled; of a foot its own place */
-  double spread;   /* where B has a jump at the end of the source, or a derivative of B at the
-                      origin, that is so many times as large in the next derivative of H here */
+  int passed;    /* it is one of the other side, which is its origin, of the same generation */
+  double spread; /* where B has a jump at the end of the source, or a derivative of B at the
+                    origin, that is so many times as large in the next derivative of H here */
 } hr2di_event;
 
 typedef struct hr2di_events {

@@ -67,13 +67,17 @@ struct hr2di_grader {
 /* Sets the vertices, and no feet.  HR2D_OK, HR2D_ENOMEM or the status of the watch, as all. */
 hr2d_status hr2di_grading_list_vertices(hr2di_grader *g);
 
-/* The largest reflectance of a patch in any band. */
+/* The largest ρ of a patch in any band, or ρ + τ. */
 double hr2di_grading_reflectance(const hr2d_scene *scene, uint32_t patch);
 
 /* Adds the vertices that are near to a patch to its marks and its near points. */
 hr2d_status hr2di_grading_look_around(hr2di_grader *g, uint32_t patch);
 
-/* Adds marks at the feet of a patch and at its events, and sorts all. */
+/* Turns marks from number `first` on round, which are of the other side of a pane. */
+void hr2di_grading_turn_marks(hr2di_grader *g, size_t first);
+
+/* Adds marks at the feet of a patch and at its events, those of both sides of a pane, and sorts
+   all. */
 hr2d_status hr2di_grading_set_marks(hr2di_grader *g, uint32_t patch);
 
 /* Looks from all patches and divides them, on several threads: patches look on any of them, and

@@ -47,7 +47,7 @@ static int by_place(const void *a, const void *b) {
 hr2d_status hr2di_grading_list_vertices(hr2di_grader *g) {
   const hr2d_scene *scene = g->h->scene;
   const hr2di_sunlight *sun = &scene->sunlight;
-  g->vertex = hr2di_alloc(&g->h->alloc, 2 * scene->patches + sun->borders, sizeof *g->vertex);
+  g->vertex = hr2di_alloc(&g->h->alloc, 2 * (scene->patches + sun->borders), sizeof *g->vertex);
   g->under = hr2di_alloc_zero(&g->h->alloc, 2 * scene->patches, sizeof *g->under);
   if (!g->vertex || !g->under) return HR2D_ENOMEM;
   hr2d_status status = HR2D_OK;
@@ -57,9 +57,13 @@ hr2d_status hr2di_grading_list_vertices(hr2di_grader *g) {
     g->vertex[g->vertices++] = (hr2di_grading_vertex){s.a, k, 0, 0};
     g->vertex[g->vertices++] = (hr2di_grading_vertex){s.b, k, 1, 0};
   }
-  for (size_t k = 0; k < sun->borders; k++)
-    g->vertex[g->vertices++] =
-        (hr2di_grading_vertex){sun->border[k].point, sun->border[k].patch, 0, 1};
+  for (size_t k = 0; k < sun->borders; k++) {
+    const hr2di_sun_border *b = &sun->border[k];
+    const uint32_t other = (uint32_t)hr2di_scene_other_side(scene, b->patch);
+    g->vertex[g->vertices++] = (hr2di_grading_vertex){b->point, b->patch, 0, 1};
+    if (other != b->patch)
+      g->vertex[g->vertices++] = (hr2di_grading_vertex){b->point, other, 0, 1};
+  }
   return status
              ? status
              : hr2di_sort(g->vertex, g->vertices, sizeof *g->vertex, by_x, g->grading->watch);
@@ -68,7 +72,7 @@ hr2d_status hr2di_grading_list_vertices(hr2di_grader *g) {
 double hr2di_grading_reflectance(const hr2d_scene *scene, uint32_t patch) {
   double max = 0;
   for (size_t b = 0; b < scene->bands; b++)
-    max = fmax(max, hr2d_scene_reflectance(scene, patch, b));
+    max = fmax(max, hr2di_scene_scattered(scene, patch, b));
   return max;
 }
 
@@ -287,10 +291,22 @@ static void sort_marks(hr2di_grader *g) {
   g->marks = kept;
 }
 
-hr2d_status hr2di_grading_set_marks(hr2di_grader *g, uint32_t patch) {
+void hr2di_grading_turn_marks(hr2di_grader *g, size_t first) {
+  for (size_t k = first; k < g->marks; k++) g->mark[k].at = 1 - g->mark[k].at;
+}
+
+static hr2d_status add_own_marks(hr2di_grader *g, uint32_t patch) {
   hr2d_status status = HR2D_OK;
   for (int last = 0; last < 2 && !status; last++) status = add_foot(g, patch, last);
-  if (!status) status = add_events(g, patch);
+  return status ? status : add_events(g, patch);
+}
+
+hr2d_status hr2di_grading_set_marks(hr2di_grader *g, uint32_t patch) {
+  const uint32_t other = (uint32_t)hr2di_scene_other_side(g->h->scene, patch);
+  hr2d_status status = add_own_marks(g, patch);
+  const size_t first = g->marks;
+  if (!status && other != patch) status = add_own_marks(g, other);
+  hr2di_grading_turn_marks(g, first);
   if (!status) sort_marks(g);
   return status;
 }

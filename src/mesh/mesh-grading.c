@@ -154,14 +154,26 @@ static void aim(hr2di_grader *g, uint32_t patch) {
   g->shortest = hr2di_grading_shortest(&g->h->scene->patch[patch]);
 }
 
-static hr2d_status trace(hr2di_grader *g, uint32_t patch) {
-  aim(g, patch);
-  g->near.count = g->marks = g->feet_count = 0;
+static hr2d_status look(hr2di_grader *g, uint32_t patch) {
   hr2d_status status = g->seen ? hr2di_visible_vertices_look(g->seen, patch) : HR2D_OK;
   if (!status) status = hr2di_grading_look_around(g, patch);
   return status ? status
                 : hr2di_images_add(g->h->scene, patch, HR2DI_GRADING_FAR, g->seen, &g->near,
                                    g->grading->watch);
+}
+
+/* A pane is divided for both sides at once, as what falls on one leaves the other.  What stands
+   on the other side is known already. */
+static hr2d_status trace(hr2di_grader *g, uint32_t patch) {
+  const uint32_t other = (uint32_t)hr2di_scene_other_side(g->h->scene, patch);
+  aim(g, patch);
+  g->near.count = g->marks = g->feet_count = 0;
+  hr2d_status status = look(g, patch);
+  const size_t marks = g->marks, feet = g->feet_count;
+  if (!status && other != patch) status = look(g, other);
+  hr2di_grading_turn_marks(g, marks);
+  g->feet_count = feet;
+  return status;
 }
 
 static hr2d_status divide_patch(hr2di_grader *g, uint32_t patch) {
@@ -198,9 +210,10 @@ static hr2d_status find_backs(hr2di_grader *g) {
              : HR2D_OK;
 }
 
+/* A pane is divided on the side of the lower number, and so will be the other side. */
 static int divides(const hr2di_grader *g, uint32_t patch) {
   const hr2d_scene *scene = g->h->scene;
-  return hr2di_scene_lit(scene, patch) &&
+  return hr2di_scene_lit(scene, patch) && patch <= hr2di_scene_other_side(scene, patch) &&
          (g->all || hr2di_grading_reflectance(scene, patch) > 0);
 }
 

@@ -39,7 +39,8 @@ typedef struct hr2di_survey {
    - at visibility events, and where the end of a patch stands on another patch;
    - towards corners, geometrically;
    - until every end in front of an element is at an ellipse of `distance` or more.
-   Patches that reflect nothing have B = E and stay whole.  Returns HR2D_OK; or, with a part of
+   Patches that reflect nothing have B = E and stay whole.  Panes are divided on one side, for
+   both; hr2di_pane_trees_unite() does the rest.  Returns HR2D_OK; or, with a part of
    the divisions done, HR2D_ENOMEM, HR2D_EMAX_ELEMENTS or the status of the watch. */
 hr2d_status hr2di_grading_apply(hr2d_hierarchy *hierarchy, const hr2di_grading *grading,
                                 hr2di_survey *survey);

@@ -4,13 +4,15 @@
    J = Σ vB̄ + wH̄ = ⟨v/A, B⟩ + ⟨w/A, KB + S⟩ with ⟨f, g⟩ = ∫fg, and B = Q + ρ(KB + S) is changed
    by δB = (I − ρK)⁻¹(δQ + Hδρ).  K is self-adjoint, so that (I − ρK)⁻ᵀ = I + K(I − ρK)⁻¹ρ and
 
-     δJ = ⟨u, δQ + Hδρ⟩,   u = v/A + KX,   X = (ρv + w)/A + ρKX. */
+     δJ = ⟨u, δQ + Hδρ⟩,   u = v/A + KX,   X = (ρv + w)/A + ρKX.
+   On panes ρ is S, which is symmetric as well. */
 #include <math.h>
 #include <string.h>
 
 #include "base/alloc.h"
 #include "base/sized-struct.h"
 #include "operator/operator-impl.h"
+#include "scene/panes.h"
 #include "solution/solution-impl.h"
 #include "solve/existence.h"
 
@@ -32,7 +34,9 @@ static double weight_at(const adjoint *a, const hr2d_values *from, size_t patch,
 /* (ρv + w)/A on a patch. */
 static double source_at(const adjoint *a, size_t patch, size_t band) {
   const hr2d_scene *relit = a->op->kept->relit;
-  return (hr2d_scene_reflectance(relit, patch, band) * weight_at(a, a->v, patch, band) +
+  const size_t other = hr2di_scene_other_side(relit, patch);
+  return (hr2di_pane_sum(relit, patch, band, weight_at(a, a->v, patch, band),
+                         weight_at(a, a->v, other, band)) +
           weight_at(a, a->w, patch, band)) /
          relit->patch[patch].length;
 }
@@ -106,7 +110,7 @@ static void add_leaf(const adjoint *a, size_t leaf, hr2d_gradient *to) {
   }
 }
 
-/* By T of a patch, and by ρ where E = (1 − ρ)σT⁴ follows it. */
+/* By T of a patch, and by ρ where E = (1 − ρ − τ)σT⁴ follows it. */
 static void add_heat(const hr2d_operator *op, size_t patch, const double *by_emission,
                      hr2d_gradient *to) {
   const hr2d_scene *relit = op->kept->relit;
@@ -115,7 +119,7 @@ static void add_heat(const hr2d_operator *op, size_t patch, const double *by_emi
   const double kelvin = relit->patch[patch].light->given, black = hr2d_black_body(kelvin);
   if (to->temperature) to->temperature[patch] = heat == HR2D_HEAT_TEMPERATURE ? 0 : NAN;
   for (size_t b = 0; b < bands && heat != HR2D_HEAT_NONE; b++) {
-    const double rho = hr2d_scene_reflectance(relit, patch, b);
+    const double rest = hr2di_scene_absorptance(relit, patch, b);
     const double rise = by_emission[patch * bands + b];
     if (heat == HR2D_HEAT_FLUX && to->reflectance) to->reflectance[patch * bands + b] = NAN;
     if (heat == HR2D_HEAT_FLUX) continue;
@@ -123,8 +127,7 @@ static void add_heat(const hr2d_operator *op, size_t patch, const double *by_emi
            -rise * hr2di_scene_band_part(op->scene, kelvin, b) * black);
     if (kelvin > 0)
       add_to(to->temperature, patch,
-             rise * (1 - rho) * hr2di_scene_band_rise(op->scene, kelvin, b) * 4 * black /
-                 kelvin);
+             rise * rest * hr2di_scene_band_rise(op->scene, kelvin, b) * 4 * black / kelvin);
   }
 }
 

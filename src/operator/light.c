@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* From a caller's light to that of the relit scene. */
+#include <float.h>
 #include <hr2d/symmetry.h>
 #include <math.h>
 #include <stdint.h>
@@ -65,15 +66,14 @@ static hr2d_status take_surface(hr2d_operator *op, const hr2d_values *v, int is_
   return HR2D_OK;
 }
 
-/* E = (1 − ρ)σT⁴, as in thermal.c, for a temperature and ρ that may both be new. */
+/* E = (1 − ρ − τ)σT⁴, as in thermal.c, for a temperature and ρ that may both be new. */
 static void emit(hr2d_operator *op, size_t light, size_t k, double kelvin) {
   hr2d_scene *relit = op->kept->relit;
   const size_t bands = op->scene->bands;
   double *emission = hr2di_relit_emission(relit, k) + light * bands;
-  const double *rho = hr2di_relit_reflectance(relit, k) + light * bands;
   for (size_t b = 0; b < bands; b++)
-    emission[b] =
-        (1 - rho[b]) * (hr2di_scene_band_part(op->scene, kelvin, b) * hr2d_black_body(kelvin));
+    emission[b] = hr2di_scene_absorptance(relit, k, light * bands + b) *
+                  (hr2di_scene_band_part(op->scene, kelvin, b) * hr2d_black_body(kelvin));
 }
 
 static hr2d_status take_temperature(hr2d_operator *op, const hr2d_light *from, size_t light,
@@ -178,10 +178,24 @@ static hr2d_status check_sky(hr2d_operator *op, const hr2d_light *from) {
   return HR2D_OK;
 }
 
+/* ρ + τ ≤ 1 on a pane. */
+static hr2d_status check_pane(hr2d_operator *op, const hr2d_light *from, size_t light,
+                              size_t k) {
+  const hr2d_scene *relit = op->kept->relit;
+  for (size_t b = 0; b < op->scene->bands && from->reflectance.value; b++) {
+    const size_t band = light * op->scene->bands + b;
+    const double rho = hr2d_scene_reflectance(relit, k, band);
+    if (rho + hr2d_scene_transmittance(relit, k, band) > 1 + 4 * DBL_EPSILON)
+      return refuse(op, light, "reflectance", k, rho, "with its transmittance it is above 1");
+  }
+  return HR2D_OK;
+}
+
 static hr2d_status take_patch(hr2d_operator *op, const hr2d_light *from, size_t light,
                               size_t k) {
   hr2d_status status = take_surface(op, &from->emission, 1, light, k);
   if (!status) status = take_surface(op, &from->reflectance, 0, light, k);
+  if (!status) status = check_pane(op, from, light, k);
   if (!status) status = take_temperature(op, from, light, k);
   return status ? status : take_flux(op, from, light, k);
 }

@@ -12,6 +12,7 @@
 #include "base/alloc.h"
 #include "base/team.h"
 #include "hierarchy/image-trees.h"
+#include "hierarchy/pane-trees.h"
 #include "refine/occluded-pairs.h"
 #include "refine/projector.h"
 #include "refine/rounds.h"
@@ -197,6 +198,7 @@ static hr2d_status unite(team *t, size_t hired, uint64_t links) {
   const uint64_t max = t->options.max_elements;
   hr2d_status status = hr2di_hierarchy_unite(h, t->clone, hired, room, t->watch);
   if (!status) status = hr2di_image_trees_unite(h, room, t->watch);
+  if (!status) status = hr2di_pane_trees_unite(h, room, t->watch);
   if (!status && (!max || h->elements <= max)) return HR2D_OK;
   hr2di_hierarchy_truncate(h, elements);
   if (status == HR2D_EMAX_BYTES)

@@ -7,6 +7,7 @@
 #include "geometry/exchange-area.h"
 #include "geometry/predicates.h"
 #include "hierarchy/image-trees.h"
+#include "hierarchy/pane-trees.h"
 #include "refine/occluded-pairs.h"
 #include "refine/part-rows.h"
 #include "refine/projector.h"
@@ -15,22 +16,28 @@
 #include "refine/unite-shares.h"
 #include "scene/scene-impl.h"
 
-/* Elements of images are a part of the budgets. */
-static hr2d_status unite_images(hr2di_projector *p) {
+/* Elements of images, and those on the other sides of panes, are a part of the budgets. */
+static hr2d_status unite_trees(hr2di_projector *p) {
   hr2d_hierarchy *h = p->hierarchy;
   const uint64_t upper = p->options.max_elements;
   const uint64_t room = hr2di_projector_left(p) / HR2DI_ELEMENT_BYTES;
-  if (!h->scene->symmetry.motion) return HR2D_OK;
+  if (!h->scene->symmetry.motion && !h->scene->other_side) return HR2D_OK;
   const size_t max = room < SIZE_MAX - h->capacity ? h->capacity + (size_t)room : SIZE_MAX;
-  const hr2d_status status = hr2di_image_trees_unite(h, max, p->watch);
+  hr2d_status status = hr2di_image_trees_unite(h, max, p->watch);
+  if (!status) status = hr2di_pane_trees_unite(h, max, p->watch);
   if (status == HR2D_EMAX_BYTES)
     return hr2di_projector_fail_budget(p->links, p->budget, p->counts.links);
+  if (status == HR2D_EUNSUPPORTED)
+    return hr2di_message_fail(&p->links->message, status,
+                              "the elements of both sides of a pane are divided at different "
+                              "places: divide both alike, or neither");
   if (status) return hr2di_projector_fail(p, status, " for images");
   if (!upper || h->elements <= upper) return HR2D_OK;
-  return hr2di_message_fail(&p->links->message, HR2D_EMAX_ELEMENTS,
-                            "more than %llu elements are needed with those of images, for %llu "
-                            "links",
-                            (unsigned long long)upper, (unsigned long long)p->counts.links);
+  return hr2di_message_fail(
+      &p->links->message, HR2D_EMAX_ELEMENTS,
+      "more than %llu elements are needed with those of images and panes, for "
+      "%llu links",
+      (unsigned long long)upper, (unsigned long long)p->counts.links);
 }
 
 /* Runs a projector.  On failure the hierarchy gets its former size. */
@@ -45,7 +52,7 @@ static hr2d_status run(hr2di_projector *p, hr2di_sink sink, void *sink_ctx,
   hr2d_status status = project(p);
   hr2di_rounds_measure(p);
   if (!status) status = hr2di_projector_fail(p, hr2di_watch_ask(p->watch), "");
-  if (!status) status = unite_images(p);
+  if (!status) status = unite_trees(p);
   h->refining = 0;
   p->counts.visibility_tests += hr2di_part_rows_tests(p);
   p->other_tests += p->part.others;

@@ -133,8 +133,11 @@ hr2d_status hr2d_study_law(hr2d_linkset *links, const hr2d_refine_options *optio
     return hr2di_message_fail(&links->message, HR2D_EUNSUPPORTED,
                               "there is no law for the oracle \"%s\" and the policy \"%s\"",
                               links->oracle.name, links->policy.name);
-  if (used.ordered || scene->symmetry.motion)
+  const int panes = scene->effect[HR2D_EFFECT_PANES].called_for;
+  if (used.ordered || scene->symmetry.motion || panes)
     return hr2di_message_fail(&links->message, HR2D_EUNSUPPORTED, "there is no law %s",
-                              used.ordered ? "of ordered pairs" : "with mirrors or a period");
+                              used.ordered ? "of ordered pairs"
+                              : panes      ? "with panes, whose sides are divided alike"
+                                           : "with mirrors or a period");
   return make_law(&l, &used, constants);
 }

@@ -15,14 +15,16 @@ hr2d_status hr2di_scene_check_bands(hr2d_scene *scene, hr2di_watch *watch) {
   if (status) return hr2di_scene_fail(scene, status, watch, "");
   for (size_t k = 0; k < scene->patches; k++) {
     const hr2di_light *light = scene->patch[k].light;
-    const size_t count[] = {light->emission_bands, light->reflectance_bands};
-    for (int c = 0; c < 2; c++) {
+    static const char *const what[] = {"emission", "reflectance", "transmittance"};
+    const size_t count[] = {light->emission_bands, light->reflectance_bands,
+                            light->transmittance_bands};
+    for (int c = 0; c < 3; c++) {
       if (count[c] <= 1) continue;
       if (bands > 1 && count[c] != bands)
-        return hr2di_message_fail(
-            &scene->message, HR2D_ESCENE, "%s has %zu bands of %s where %s has %zu bands",
-            hr2di_patch_label(scene, k).text, count[c], c ? "reflectance" : "emission",
-            hr2di_patch_label(scene, setter).text, bands);
+        return hr2di_message_fail(&scene->message, HR2D_ESCENE,
+                                  "%s has %zu bands of %s where %s has %zu bands",
+                                  hr2di_patch_label(scene, k).text, count[c], what[c],
+                                  hr2di_patch_label(scene, setter).text, bands);
       if (bands == 1) setter = k;
       bands = count[c];
     }

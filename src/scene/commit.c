@@ -86,6 +86,7 @@ static hr2d_status commit(hr2d_scene *scene, unsigned copies, hr2di_watch *watch
                                                               hr2di_scene_check_thermal,
                                                               hr2di_scene_scale,
                                                               hr2di_scene_check_overlaps,
+                                                              hr2di_scene_match_panes,
                                                               hr2di_scene_make_walls,
                                                               hr2di_scene_analyse_effects,
                                                               hr2di_scene_find_light,

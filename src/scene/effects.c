@@ -15,6 +15,7 @@ static const char *const effect_name[HR2D_EFFECT_COUNT] = {
     [HR2D_EFFECT_EMISSION] = "emission",   [HR2D_EFFECT_BANDS] = "bands",
     [HR2D_EFFECT_TWO_SIDED] = "two-sided", [HR2D_EFFECT_FACING] = "facing",
     [HR2D_EFFECT_CORNER] = "corner",       [HR2D_EFFECT_BACKGROUND] = "background",
+    [HR2D_EFFECT_PANES] = "panes",
 };
 
 const char *hr2d_effect_name(hr2d_effect effect) {
@@ -54,10 +55,22 @@ static int touch(const hr2d_segment *i, const hr2d_segment *j) {
          on_segment(j, i->b);
 }
 
+/* What passes through a pane goes on as what is reflected does. */
+static void analyse_panes(hr2d_scene *scene) {
+  set(scene, HR2D_EFFECT_PANES, 0, "every transmittance is 0");
+  for (size_t k = scene->patches; k-- > 0;) {
+    if (hr2di_scene_other_side(scene, k) == k) continue;
+    const hr2di_label label = hr2di_patch_label(scene, k);
+    set(scene, HR2D_EFFECT_PANES, 1, "light passes through %s", label.text);
+    set(scene, HR2D_EFFECT_INTERREFLECTION, 1, "light passes through %s", label.text);
+  }
+}
+
 static hr2d_status analyse_materials(hr2d_scene *scene, hr2di_watch *watch) {
   hr2d_status status = HR2D_OK;
   set(scene, HR2D_EFFECT_INTERREFLECTION, 0, "every reflectance is 0");
   set(scene, HR2D_EFFECT_EMISSION, 0, "no patch emits");
+  analyse_panes(scene);
   if (scene->bands > 1)
     set(scene, HR2D_EFFECT_BANDS, 1, "%zu bands", scene->bands);
   else

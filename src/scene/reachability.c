@@ -157,10 +157,20 @@ static size_t light_contacts(flood *f, uint32_t part, size_t pending) {
   return pending;
 }
 
+/* So does the other side of a lit pane. */
+static size_t light_other_side(flood *f, uint32_t patch, size_t pending) {
+  const size_t other = hr2di_scene_other_side(f->scene, patch);
+  if (!f->scene->dark[other]) return pending;
+  f->scene->dark[other] = 0;
+  f->pending[pending] = (uint32_t)other;
+  return pending + 1;
+}
+
 static void light_pending(flood *f, size_t pending) {
   while (pending > 0) {
     const uint32_t patch = f->pending[--pending];
     f->dark--;
+    pending = light_other_side(f, patch, pending);
     for (uint32_t k = f->first_of[patch]; k != NO_PART; k = f->next_of[k])
       if (f->scene->parts.part[k].side == HR2DI_HIDDEN)
         pending = light_contacts(f, k, pending);
@@ -175,10 +185,14 @@ static void light_up(flood *f, uint32_t patch) {
   light_pending(f, 1);
 }
 
-/* Light from hidden parts of sources. */
+/* Light from hidden parts of sources, and through those that are panes. */
 static hr2d_status begin_contacts(flood *f) {
   const hr2di_side_parts *p = &f->scene->parts;
   hr2d_status status = HR2D_OK;
+  for (size_t k = 0; k < f->scene->patches && f->scene->other_side && !status; k++) {
+    status = hr2di_watch_work(f->walk.watch, 1);
+    if (emits(f->scene, k)) light_pending(f, light_other_side(f, (uint32_t)k, 0));
+  }
   for (size_t k = 0; k < p->contacts && !status; k++) {
     status = hr2di_watch_work(f->walk.watch, 1);
     if (emits(f->scene, p->part[p->contact[k].part].patch))

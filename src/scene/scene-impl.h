@@ -5,6 +5,7 @@
 
 #include <hr2d/scene.h>
 #include <hr2d/thermal.h>
+#include <math.h>
 
 #include "base/message.h"
 #include "base/watch.h"
@@ -22,8 +23,9 @@
    and many segments would take memory for the product of their numbers. */
 typedef struct hr2di_light {
   size_t users;
-  size_t emission_bands; /* 0, 1 or as many as the scene has; so are the other two */
+  size_t emission_bands; /* 0, 1 or as many as the scene has; so are the others */
   size_t reflectance_bands;
+  size_t transmittance_bands;
   size_t emissivity_bands;
   hr2d_heat heat;
   double given;   /* T or q; 0 without heat */
@@ -31,7 +33,7 @@ typedef struct hr2di_light {
   hr2d_emissivity_fn emissivity_of; /* NULL: none */
   void *emissivity_ctx;
   double value[]; /* emission, then reflectance, then emissivity, for each of the kelvins, then
-                     these */
+                     these, then transmittance */
 } hr2di_light;
 
 typedef struct hr2di_patch {
@@ -71,6 +73,7 @@ struct hr2d_scene {
   } unclear;
   hr2di_sunlight sunlight; /* of the suns */
   unsigned char *dark;     /* per patch: 1 if no light reaches it; NULL if light reaches all */
+  uint32_t *other_side;    /* per patch: see panes.h; NULL without the effect */
   struct {
     int on;
     int called_for; /* on although not forced */
@@ -102,8 +105,8 @@ void hr2di_scene_take_sun(hr2d_scene *scene, hr2d_sun *sun, size_t bands);
 hr2d_status hr2di_scene_add(hr2d_scene *scene, const hr2d_patch *patch,
                             const hr2d_thermal *thermal, size_t *index);
 
-/* As hr2d_scene_add(), but with the light of the patch that was added last. */
-hr2d_status hr2di_scene_add_alike(hr2d_scene *scene, const hr2d_patch *patch);
+/* As hr2d_scene_add(), but with the light of patch `like`. */
+hr2d_status hr2di_scene_add_alike(hr2d_scene *scene, const hr2d_patch *patch, size_t like);
 
 /* Ends one use of a light; the last frees it.  NULL is allowed. */
 void hr2di_light_release(const hr2d_allocator *alloc, hr2di_light *light);
@@ -159,6 +162,7 @@ hr2d_status hr2di_scene_check_bands(hr2d_scene *scene, hr2di_watch *watch);
 hr2d_status hr2di_scene_check_thermal(hr2d_scene *scene, hr2di_watch *watch);
 hr2d_status hr2di_scene_scale(hr2d_scene *scene, hr2di_watch *watch);
 hr2d_status hr2di_scene_check_overlaps(hr2d_scene *scene, hr2di_watch *watch);
+hr2d_status hr2di_scene_match_panes(hr2d_scene *scene, hr2di_watch *watch);
 hr2d_status hr2di_scene_make_walls(hr2d_scene *scene, hr2di_watch *watch);
 hr2d_status hr2di_scene_analyse_effects(hr2d_scene *scene, hr2di_watch *watch);
 hr2d_status hr2di_scene_find_light(hr2d_scene *scene, hr2di_watch *watch);
@@ -194,6 +198,23 @@ static inline int hr2di_scene_has_band(const hr2d_scene *scene, size_t band) {
 /* The patch of which another one is an image; itself, if it is none. */
 static inline size_t hr2di_scene_original(const hr2d_scene *scene, size_t patch) {
   return hr2di_symmetry_original(&scene->symmetry, patch);
+}
+
+/* The other side of a pane; of any other patch itself. */
+static inline size_t hr2di_scene_other_side(const hr2d_scene *scene, size_t patch) {
+  return scene->other_side ? scene->other_side[patch] : patch;
+}
+
+/* What leaves a patch of what falls on it: ρ, on a pane ρ + τ. */
+static inline double hr2di_scene_scattered(const hr2d_scene *scene, size_t patch, size_t band) {
+  const double rho = hr2d_scene_reflectance(scene, patch, band);
+  return scene->other_side ? fmin(1, rho + hr2d_scene_transmittance(scene, patch, band)) : rho;
+}
+
+/* What stays there. */
+static inline double hr2di_scene_absorptance(const hr2d_scene *scene, size_t patch,
+                                             size_t band) {
+  return 1 - hr2di_scene_scattered(scene, patch, band);
 }
 
 static inline int hr2di_scene_lit(const hr2d_scene *scene, size_t patch) {

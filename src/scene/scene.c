@@ -41,6 +41,8 @@ void hr2di_scene_clear_commit(hr2d_scene *scene) {
   hr2di_sunlight_clear(&scene->sunlight, &scene->alloc);
   hr2di_alloc_free(&scene->alloc, scene->dark);
   scene->dark = NULL;
+  hr2di_alloc_free(&scene->alloc, scene->other_side);
+  scene->other_side = NULL;
   scene->bands = 1;
   scene->exponent = 0;
   for (int e = 0; e < HR2D_EFFECT_COUNT; e++) {
@@ -106,18 +108,20 @@ static char *make_name(hr2d_scene *scene, const char *name, size_t index, int ba
 static hr2di_light *make_light(const hr2d_scene *scene, const hr2d_patch *patch,
                                const hr2d_thermal *thermal) {
   const size_t head = (sizeof(hr2di_light) + sizeof(double) - 1) / sizeof(double);
-  const size_t e = patch->emission_bands, r = patch->reflectance_bands;
+  const size_t e = patch->emission_bands, r = patch->reflectance_bands,
+               t = patch->transmittance_bands;
   const size_t kelvins = thermal ? thermal->kelvins : 0;
   const size_t emissivities = thermal ? thermal->emissivity_bands * (kelvins ? kelvins : 1) : 0;
-  if (e > SIZE_MAX / 8 || r > SIZE_MAX / 8 || emissivities > SIZE_MAX / 8 ||
+  if (e > SIZE_MAX / 8 || r > SIZE_MAX / 8 || t > SIZE_MAX / 8 || emissivities > SIZE_MAX / 8 ||
       kelvins > SIZE_MAX / 8)
     return NULL;
   hr2di_light *light =
-      hr2di_alloc(&scene->alloc, head + e + r + emissivities + kelvins, sizeof(double));
+      hr2di_alloc(&scene->alloc, head + e + r + emissivities + kelvins + t, sizeof(double));
   if (!light) return NULL;
   *light = (hr2di_light){.users = 1,
                          .emission_bands = e,
                          .reflectance_bands = r,
+                         .transmittance_bands = t,
                          .emissivity_bands = thermal ? thermal->emissivity_bands : 0,
                          .heat = thermal ? thermal->given : HR2D_HEAT_NONE,
                          .given = thermal ? thermal->value : 0,
@@ -129,6 +133,8 @@ static hr2di_light *make_light(const hr2d_scene *scene, const hr2d_patch *patch,
   for (size_t k = 0; k < emissivities; k++) light->value[e + r + k] = thermal->emissivity[k];
   for (size_t k = 0; k < kelvins; k++)
     light->value[e + r + emissivities + k] = thermal->kelvin[k];
+  for (size_t k = 0; k < t; k++)
+    light->value[e + r + emissivities + kelvins + k] = patch->transmittance[k];
   return light;
 }
 
@@ -247,8 +253,10 @@ static hr2d_status check_segment(hr2d_scene *scene, const hr2d_patch *patch,
 /* E and ρ of a patch with thermal properties follow from these, which are checked already. */
 static hr2d_status check_light(hr2d_scene *scene, const hr2d_patch *patch,
                                const hr2d_thermal *thermal, const char *label) {
-  if (thermal) return HR2D_OK;
-  hr2d_status status =
+  hr2d_status status = check_values(scene, label, "transmittance", patch->transmittance,
+                                    patch->transmittance_bands, 1);
+  if (thermal || status) return status;
+  status =
       check_values(scene, label, "emission", patch->emission, patch->emission_bands, HUGE_VAL);
   return status ? status
                 : check_values(scene, label, "reflectance", patch->reflectance,
@@ -274,11 +282,11 @@ hr2d_status hr2d_scene_add(hr2d_scene *scene, const hr2d_patch *patch, size_t *i
   return hr2di_scene_add(scene, patch, NULL, index);
 }
 
-hr2d_status hr2di_scene_add_alike(hr2d_scene *scene, const hr2d_patch *patch) {
+hr2d_status hr2di_scene_add_alike(hr2d_scene *scene, const hr2d_patch *patch, size_t like) {
   hr2d_status status =
       check_segment(scene, patch, make_label(scene->patches, patch->name).text);
   if (status) return status;
-  hr2di_light *light = scene->patch[scene->patches - 1].light;
+  hr2di_light *light = scene->patch[like].light;
   light->users++;
   return add_sides(scene, patch, light);
 }
@@ -400,6 +408,22 @@ double hr2d_scene_reflectance(const hr2d_scene *scene, size_t patch, size_t band
   if (!hr2di_scene_has(scene, patch) || !hr2di_scene_has_band(scene, band)) return NAN;
   const hr2di_light *light = scene->patch[patch].light;
   return band_value(light->value + light->emission_bands, light->reflectance_bands, band);
+}
+
+/* A scene with other light has the panes of its lender, whose bands repeat. */
+double hr2d_scene_transmittance(const hr2d_scene *scene, size_t patch, size_t band) {
+  if (!hr2di_scene_has(scene, patch) || !hr2di_scene_has_band(scene, band)) return NAN;
+  if (scene->lender)
+    return hr2d_scene_transmittance(scene->lender, patch, band % scene->lender->bands);
+  const hr2di_light *light = scene->patch[patch].light;
+  const size_t tables = light->kelvins ? light->kelvins : 1;
+  return band_value(light->value + light->emission_bands + light->reflectance_bands +
+                        light->emissivity_bands * tables + light->kelvins,
+                    light->transmittance_bands, band);
+}
+
+size_t hr2d_scene_other_side(const hr2d_scene *scene, size_t patch) {
+  return hr2di_scene_has(scene, patch) ? hr2di_scene_other_side(scene, patch) : patch;
 }
 
 double hr2d_scene_background(const hr2d_scene *scene, size_t band) {

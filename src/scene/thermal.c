@@ -4,7 +4,9 @@
    Given T: ρ = 1 − ε and E = (1 − ρ)σT⁴, per band its part of it.  The factor is 1 − ρ and not
    ε: the equation absorbs 1 − ρ of H, and a room of one temperature is in equilibrium only if
    the patch emits with the same factor.  1 − ρ is exact for ρ ≥ ½, and has one rounding else.
-   Given q: B = H + q, which is E = q with ρ = 1. */
+   Given q: B = H + q, which is E = q with ρ = 1.
+   Of a pane with T: ρ = 1 − ε − τ, and E = (1 − (ρ + τ))σT⁴ for the same reason. */
+#include <float.h>
 #include <hr2d/thermal.h>
 #include <math.h>
 #include <stdint.h>
@@ -122,20 +124,52 @@ static hr2d_status fix_emissivity(hr2d_scene *scene, const hr2d_patch *patch, hr
 }
 
 /* Room for E and ρ per band, in `value`. */
+static double transmittance_of(const hr2d_patch *patch, size_t band) {
+  return patch->transmittance_bands
+             ? patch->transmittance[patch->transmittance_bands > 1 ? band : 0]
+             : 0;
+}
+
 static void set_light(const hr2d_scene *scene, const hr2d_thermal *t, double *value,
                       hr2d_patch *patch) {
   const int flux = t->given == HR2D_HEAT_FLUX;
   const size_t bands = flux ? 1 : scene->wavelengths + 1;
   double *rho = value + bands;
   for (size_t b = 0; b < bands; b++) {
-    rho[b] = flux ? 1 : 1 - hr2di_emissivity_of(t, b, t->value);
+    const double tau = transmittance_of(patch, b);
+    rho[b] = flux ? 1 : fmax(0, 1 - hr2di_emissivity_of(t, b, t->value) - tau);
     const double part = flux ? 1 : hr2di_scene_band_part(scene, t->value, b);
-    value[b] = flux ? t->value : (1 - rho[b]) * (part * hr2d_black_body(t->value));
+    value[b] = flux ? t->value : (1 - (rho[b] + tau)) * (part * hr2d_black_body(t->value));
   }
   patch->emission = value;
   patch->reflectance = rho;
   patch->emission_bands = bands;
-  patch->reflectance_bands = t->emissivity_bands > 1 ? bands : 1;
+  patch->reflectance_bands =
+      t->emissivity_bands > 1 || patch->transmittance_bands > 1 ? bands : 1;
+}
+
+/* Of a pane: its values, with those of its emissivity. */
+static hr2d_status check_transmittance(hr2d_scene *scene, const hr2d_patch *patch,
+                                       const hr2d_thermal *t) {
+  const size_t bands = patch->transmittance_bands;
+  if (bands > 0 && !patch->transmittance)
+    return refuse(scene, HR2D_EINVAL, patch, "transmittance: a number of bands but no values");
+  if (bands > 1 && bands != scene->wavelengths + 1)
+    return refuse(scene, HR2D_ESCENE, patch,
+                  "transmittance: the wavelengths of the scene make another number of bands");
+  for (size_t b = 0; b < scene->wavelengths + 1 && bands; b++) {
+    const double tau = transmittance_of(patch, b);
+    if (!(tau >= 0 && tau <= 1))
+      return refuse(scene, HR2D_ESCENE, patch, "transmittance is not between 0 and 1");
+    if (tau > 0 && t->given == HR2D_HEAT_FLUX)
+      return refuse(scene, HR2D_ESCENE, patch,
+                    "a flux has no transmittance beside it: what passes a pane is no part of "
+                    "the heat of a side; give temperatures");
+    if (hr2di_emissivity_of(t, b, t->value) + tau > 1 + 4 * DBL_EPSILON)
+      return refuse(scene, HR2D_ESCENE, patch,
+                    "emissivity and transmittance are together above 1");
+  }
+  return HR2D_OK;
 }
 
 hr2d_status hr2d_scene_add_thermal(hr2d_scene *scene, const hr2d_patch *given,
@@ -155,6 +189,7 @@ hr2d_status hr2d_scene_add_thermal(hr2d_scene *scene, const hr2d_patch *given,
   double *value = hr2di_alloc(&scene->alloc, bands, 3 * sizeof *value);
   if (!value) return refuse(scene, HR2D_ENOMEM, given, "out of memory");
   status = fix_emissivity(scene, given, &t, value + 2 * bands);
+  if (!status) status = check_transmittance(scene, given, &t);
   if (!status) {
     set_light(scene, &t, value, &patch);
     status = hr2di_scene_add(scene, &patch, &t, index);

@@ -19,6 +19,7 @@ static void forget(hr2d_scene *copy, const hr2d_allocator *alloc) {
   copy->unclear.is = 0;
   copy->sunlight = (hr2di_sunlight){0};
   copy->dark = NULL;
+  copy->other_side = NULL;
 }
 
 /* Uses of a light are counted, which several threads must not do: the patches have none of the

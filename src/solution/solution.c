@@ -6,6 +6,7 @@
 #include "base/legendre.h"
 #include "hierarchy/hierarchy-impl.h"
 #include "scene/frozen-temperatures.h"
+#include "scene/panes.h"
 #include "solution/solution-impl.h"
 
 void hr2d_solution_destroy(hr2d_solution *solution) {
@@ -161,9 +162,13 @@ double hr2d_solution_net_flux(const hr2d_solution *solution, size_t patch, size_
   if (!hr2di_solution_has(solution, patch, band)) return NAN;
   /* B − H = E − (1−ρ)H, without the loss of the digits that B and H have in common. */
   const hr2d_scene *scene = hr2di_solution_scene(solution);
-  return hr2d_scene_emission(scene, patch, band) -
-         (1 - hr2d_scene_reflectance(scene, patch, band)) *
-             hr2d_solution_irradiance(solution, patch, band);
+  const double own = hr2d_scene_emission(scene, patch, band) -
+                     (1 - hr2d_scene_reflectance(scene, patch, band)) *
+                         hr2d_solution_irradiance(solution, patch, band);
+  if (!hr2di_pane_is(scene, patch)) return own;
+  return own +
+         hr2d_scene_transmittance(scene, patch, band) *
+             hr2d_solution_irradiance(solution, hr2di_scene_other_side(scene, patch), band);
 }
 
 double hr2d_solution_power_cut_off(const hr2d_solution *solution, size_t band) {

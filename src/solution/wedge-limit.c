@@ -3,12 +3,14 @@
    two patches p and q form a wedge, and see each other under k = ½(1 + cos α) of all directions
    whatever the distance from its edge.  With the irradiance r from everything else the limits
    of B solve
-     b_p = E_p + ρ_p (k b_q + r_p),   b_q = E_q + ρ_q (k b_p + r_q). */
+     b_p = E_p + ρ_p (k b_q + r_p),   b_q = E_q + ρ_q (k b_p + r_q).
+   What passes a pane is a part of its E, from H of the solution on the other side. */
 #include <math.h>
 
 #include "geometry/predicates.h"
 #include "geometry/vector.h"
 #include "hierarchy/hierarchy-impl.h"
+#include "scene/panes.h"
 #include "solution/gatherer.h"
 
 /* The limits at the edge of a wedge are found from points so far beside it.  Roundings of the
@@ -62,6 +64,17 @@ static hr2d_status examine_edge(hr2di_gatherer *g, const hr2di_edge *p, const hr
   return status;
 }
 
+/* E, and what passes a pane, at an edge. */
+static double sent_by(const hr2di_gatherer *g, const hr2di_edge *e, size_t band) {
+  const hr2d_scene *scene = hr2di_solution_scene(g->solution);
+  const double emission = hr2d_scene_emission(scene, e->patch, band);
+  if (!hr2di_pane_is(scene, e->patch)) return emission;
+  return emission + hr2d_scene_transmittance(scene, e->patch, band) *
+                        hr2d_solution_irradiance_at(g->solution,
+                                                    hr2di_scene_other_side(scene, e->patch),
+                                                    1 - e->at, band);
+}
+
 /* The irradiance at the edge of the wedge that two patches make; *closed is 0 if they do not
    see each other beside it. */
 static hr2d_status close_wedge(hr2di_gatherer *g, const hr2di_edge *p, const hr2di_edge *q,
@@ -77,8 +90,8 @@ static hr2d_status close_wedge(hr2di_gatherer *g, const hr2di_edge *p, const hr2
   for (size_t b = 0; b < g->solution->bands; b++) {
     const double rho_p = hr2d_scene_reflectance(scene, p->patch, b);
     const double rho_q = hr2d_scene_reflectance(scene, q->patch, b);
-    const double alone_p = hr2d_scene_emission(scene, p->patch, b) + rho_p * irradiance[b];
-    const double alone_q = hr2d_scene_emission(scene, q->patch, b) + rho_q * g->edge[b];
+    const double alone_p = sent_by(g, p, b) + rho_p * irradiance[b];
+    const double alone_q = sent_by(g, q, b) + rho_q * g->edge[b];
     irradiance[b] += k * (alone_q + rho_q * k * alone_p) / (1 - rho_p * rho_q * k * k);
   }
   return HR2D_OK;

@@ -61,7 +61,7 @@ static double find_factor(const hr2di_transport *t, size_t band, const double *r
     const hr2d_element *e = &t->hierarchy->element[t->leaf[k]];
     if (!lacks_clusters(t, e->patch)) continue;
     const double d = t->mean[e->patch], h = irradiance[k * t->width + band];
-    const double part = e->length * (1 - hr2d_scene_reflectance(t->scene, e->patch, band));
+    const double part = e->length * hr2di_scene_absorptance(t->scene, e->patch, band);
     hr2di_sum_add(&before, part * (h + d * radiosity[k * t->width + band]) / (1 + d));
     hr2di_sum_add(&after, part * h);
   }

@@ -10,6 +10,7 @@
 #include "links/components.h"
 #include "links/patch-defect.h"
 #include "scene/scene-impl.h"
+#include "solve/scattering.h"
 
 /* A component is closed if its row sums miss at most HR2DI_DEFECT_CLOSED of 1; they are 1 on
    leaves of closed patches.  A component is balanced if they miss at most this part. */
@@ -19,8 +20,13 @@ static const hr2d_element *leaf_of(const hr2di_transport *t, size_t leaf) {
   return &t->hierarchy->element[t->leaf[leaf]];
 }
 
+/* ρ, and on panes ρ + τ: what leaves of H = 1. */
 static double rho_of(const hr2di_transport *t, size_t leaf, size_t band) {
-  return hr2d_scene_reflectance(t->scene, leaf_of(t, leaf)->patch, band);
+  return hr2di_scene_scattered(t->scene, leaf_of(t, leaf)->patch, band);
+}
+
+static double absorptance_of(const hr2di_transport *t, size_t leaf, size_t band) {
+  return hr2di_scene_absorptance(t->scene, leaf_of(t, leaf)->patch, band);
 }
 
 /* 1 − K1, in one band. */
@@ -70,6 +76,7 @@ static hr2d_status number(hr2di_balance *b, const hr2di_transport *t, hr2di_comp
 static hr2d_status find_components(hr2di_balance *b, hr2di_transport *t) {
   hr2di_components c = {.alloc = t->alloc};
   hr2d_status status = hr2di_components_init(&c, t->links, t->watch);
+  if (!status) hr2di_components_join_panes(&c, t->scene, SIZE_MAX);
   tally *of = hr2di_alloc_zero(&t->alloc, t->hierarchy->scene->patches, sizeof *of);
   b->component = hr2di_alloc(&t->alloc, t->leaves, sizeof *b->component);
   b->missing = hr2di_alloc(&t->alloc, t->leaves * t->order, sizeof *b->missing);
@@ -107,8 +114,8 @@ void hr2di_balance_set_losses(hr2di_balance *b, const hr2di_transport *t) {
     b->length[b->component[k]] += area;
     b->escape[b->component[k]] += escape;
     for (size_t band = 0; band < t->bands; band++) {
-      hr2di_sum_add(sum_of(b, t, k, band), area * (1 - rho_of(t, k, band)));
-      b->response[b->component[k] * t->bands + band] -= escape * (1 - rho_of(t, k, band));
+      hr2di_sum_add(sum_of(b, t, k, band), area * absorptance_of(t, k, band));
+      b->response[b->component[k] * t->bands + band] -= escape * absorptance_of(t, k, band);
       hr2di_sum_add(sum_of(b, t, k, band), escape);
     }
   }
@@ -183,12 +190,13 @@ void hr2di_balance_correct(hr2di_balance *b, const hr2di_transport *t, const dou
   clear_sums(b, t);
   for (size_t k = 0; k < t->leaves; k++)
     for (size_t band = 0; band < t->bands && hr2di_balance_holds(b, k); band++) {
-      const double area = leaf_of(t, k)->length, rho = rho_of(t, k, band);
+      const double area = leaf_of(t, k)->length, absorptance = absorptance_of(t, k, band);
       const size_t at = k * t->width + band;
-      double off = (1 - rho) * h[at];
+      double off = absorptance * h[at];
       for (size_t l = 0; l < t->order; l++) {
-        const double constant = l == 0 ? (1 - rho) * hr2di_balance_at(b, t, k, band) : 0;
-        const double z = source[at + l * t->bands] - constant + rho * h[at + l * t->bands];
+        const double constant = l == 0 ? absorptance * hr2di_balance_at(b, t, k, band) : 0;
+        const double z =
+            source[at + l * t->bands] - constant + hr2di_scattered_at(t, k, l, band, h);
         off += b->missing[k * t->order + l] * z;
       }
       hr2di_sum_add(sum_of(b, t, k, band), area * off);
@@ -212,7 +220,8 @@ void hr2di_balance_add(const hr2di_balance *b, const hr2di_transport *t, double 
 void hr2di_balance_absorb(const hr2di_balance *b, const hr2di_transport *t, double *field) {
   for (size_t k = 0; k < t->leaves && b->count > 0; k++)
     for (size_t band = 0; band < t->bands; band++)
-      field[k * t->width + band] -= (1 - rho_of(t, k, band)) * hr2di_balance_at(b, t, k, band);
+      field[k * t->width + band] -=
+          absorptance_of(t, k, band) * hr2di_balance_at(b, t, k, band);
 }
 
 void hr2di_balance_release(const hr2di_balance *b, const hr2di_transport *t, double *field) {

@@ -8,7 +8,8 @@
    is absorbed and the power that escapes add up to the power that comes in, ∫(1−ρ)H + ∫mB = ∫Q
    + ∫S,   and   c = (∫Q + ∫S)/(∫(1−ρ) + ∫m)   makes   ∫(1−ρ)h + ∫mz = 0. c is the part that
    grows like 1/(∫(1−ρ) + ∫m), and it is as accurate as this denominator; 1−ρ is exact for ρ ≥
-   ½.  z does not grow, so the roundings of Kz become roundings of c. */
+   ½.  z does not grow, so the roundings of Kz become roundings of c.  On panes S stands for ρ,
+   see scattering.h, and 1 − ρ − τ for 1 − ρ: c is the same on both sides. */
 #ifndef HR2D_SRC_SOLVE_ENERGY_BALANCE_H
 #define HR2D_SRC_SOLVE_ENERGY_BALANCE_H
 

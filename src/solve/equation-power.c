@@ -19,15 +19,22 @@
 
 enum { ATTEMPTS = 3 };
 
-/* Q + ρH − B */
+/* Sets `work` to ρH. */
+static void scatter(hr2di_equation *s) {
+  memcpy(s->work, s->irradiance, s->field * sizeof *s->work);
+  hr2di_equation_scatter(s, s->work);
+}
+
+/* Q + ρH − B, after scatter(). */
 static double residual_at(const hr2di_equation *s, size_t k) {
-  return s->source[k] + s->root_rho[k] * s->root_rho[k] * s->irradiance[k] - s->radiosity[k];
+  return s->source[k] + s->work[k] - s->radiosity[k];
 }
 
 /* The largest ∫|r|/∫|B| over the bands. */
-static double measure(const hr2di_equation *s) {
+static double measure(hr2di_equation *s) {
   const hr2di_transport *t = &s->transport;
   double max = 0;
+  scatter(s);
   for (size_t b = 0; b < t->bands; b++) {
     hr2di_sum off = {0, 0}, all = {0, 0};
     for (size_t k = 0; k < t->leaves; k++) {
@@ -66,6 +73,7 @@ static void set_unknown(hr2di_equation *s, const double *radiosity) {
                   ? (radiosity[k] - s->source[k]) / s->root_rho[k] - s->root_rho[k] * c
                   : 0;
   }
+  hr2di_equation_set_panes_unknown(s, radiosity);
 }
 
 /* Adds the solution for the residual to the radiosity.  `space` holds three fields and the
@@ -74,6 +82,7 @@ static hr2d_status add_solution_in(hr2di_equation *s, double *space, int *expone
   const size_t bytes = s->field * sizeof *space;
   double *residual = space, *source = space + s->field, *radiosity = source + s->field;
   const int background = s->background;
+  scatter(s);
   for (size_t k = 0; k < s->field; k++) residual[k] = residual_at(s, k);
   memcpy(source, s->source, bytes);
   memcpy(radiosity, s->radiosity, bytes);

@@ -4,10 +4,12 @@
    With B = Q + √ρ y the equation becomes (I − √ρ K √ρ) y = √ρ K Q.  Its operator is
    self-adjoint in Σ A x y, because A_i K_ij = AF_ij = A_j K_ji, and positive definite
    where light is lost; patches with ρ = 0 drop out by themselves.  In balanced components
-   Q' = Q − (1−ρ)c and z stand for Q and B, see energy-balance.h. */
+   Q' = Q − (1−ρ)c and z stand for Q and B, see energy-balance.h.  On panes matrices stand for ρ
+   and √ρ, see scattering.h. */
 #include "solve/equation.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/alloc.h"
 #include "base/clock.h"
@@ -93,10 +95,12 @@ static hr2d_status set_surfaces(hr2di_equation *s) {
     if (k % 1024 == 0) status = hr2di_watch_work(t->watch, 1024 * (1 + t->bands) / 2);
     const hr2d_element *e = &t->hierarchy->element[t->leaf[k / t->order]];
     s->weight[k] = e->length;
+    const int pane = t->other_leaf && t->other_leaf[k / t->order] != k / t->order;
     for (size_t b = 0; b < t->bands; b++)
-      s->root_rho[k * t->bands + b] = sqrt(hr2d_scene_reflectance(t->scene, e->patch, b));
+      s->root_rho[k * t->bands + b] =
+          pane ? 1 : sqrt(hr2d_scene_reflectance(t->scene, e->patch, b));
   }
-  return status;
+  return status ? status : hr2di_scattering_set(&s->panes, t);
 }
 
 hr2d_status hr2di_equation_set_surfaces(hr2di_equation *s) {
@@ -118,7 +122,7 @@ hr2d_status hr2di_equation_reserve(hr2di_equation *s) {
   s->norm[0] = s->space + s->items + 7 * s->field;
   s->norm[1] = s->norm[0] + t->bands;
   s->light = s->norm[1] + t->bands;
-  return HR2D_OK;
+  return hr2di_scattering_init(&s->panes, t);
 }
 
 /* E is constant on leaves. */
@@ -193,19 +197,45 @@ hr2d_status hr2di_equation_init(hr2di_equation *s, hr2d_linkset *links, const hr
   return status ? status : hr2di_equation_set_light(s);
 }
 
+static void apply_panes(const hr2di_equation *s, hr2di_scattering_part part, double *field) {
+  hr2di_scattering_apply(&s->panes, part, s->transport.order, s->transport.bands, field);
+}
+
+void hr2di_equation_scatter(const hr2di_equation *s, double *field) {
+  for (size_t k = 0; k < s->field; k++) field[k] = s->root_rho[k] * s->root_rho[k] * field[k];
+  apply_panes(s, HR2DI_SCATTERING, field);
+}
+
+/* field = √ρ field, the second factor √ρ of the equation. */
+static void reflect(const hr2di_equation *s, double *field) {
+  for (size_t k = 0; k < s->field; k++) field[k] *= s->root_rho[k];
+  apply_panes(s, HR2DI_SCATTERING_SIGNED_ROOT, field);
+}
+
 /* out = √ρ K √ρ in */
 static void apply(void *ctx, const double *in, double *out) {
   hr2di_equation *s = ctx;
   for (size_t k = 0; k < s->field; k++) s->work[k] = s->root_rho[k] * in[k];
+  apply_panes(s, HR2DI_SCATTERING_ROOT, s->work);
   hr2di_transport_apply(&s->transport, s->work, out);
-  for (size_t k = 0; k < s->field; k++) out[k] *= s->root_rho[k];
+  reflect(s, out);
+}
+
+/* field += √ρ y; what is added on panes waits in `work`. */
+static void add_root(hr2di_equation *s, const double *y, double *field) {
+  if (s->panes.pairs > 0) {
+    memcpy(s->work, y, s->field * sizeof *y);
+    apply_panes(s, HR2DI_SCATTERING_ROOT, s->work);
+    y = s->work;
+  }
+  for (size_t k = 0; k < s->field; k++) field[k] += s->root_rho[k] * y[k];
 }
 
 /* out = z = Q' + √ρ y, with Q' = Q outside balanced components. */
 static void set_fluctuation(hr2di_equation *s, const double *y, double *out) {
   for (size_t k = 0; k < s->field; k++) out[k] = s->source[k];
   hr2di_balance_absorb(&s->balance, &s->transport, out);
-  for (size_t k = 0; k < s->field && y; k++) out[k] += s->root_rho[k] * y[k];
+  if (y) add_root(s, y, out);
 }
 
 /* B = c + z */
@@ -245,7 +275,8 @@ static hr2di_krylov_system make_system(hr2di_equation *s) {
                                .size = s->items,
                                .bands = s->transport.bands,
                                .weight = s->square ? s->square : s->weight,
-                               .symmetric = !s->links->directed && !s->square,
+                               .symmetric =
+                                   !s->links->directed && !s->square && !s->panes.indefinite,
                                .apply = apply,
                                .scale = scale,
                                .enough = is_enough,
@@ -283,7 +314,8 @@ hr2d_status hr2di_equation_solve(hr2di_equation *s) {
   hr2di_equation_balance(s);
   set_fluctuation(s, NULL, s->radiosity);
   gather_rest(s, s->radiosity, s->irradiance);
-  for (size_t k = 0; k < s->field; k++) s->b[k] = s->root_rho[k] * s->irradiance[k];
+  memcpy(s->b, s->irradiance, s->field * sizeof *s->b);
+  reflect(s, s->b);
   const hr2di_krylov_system system = make_system(s);
   double residual = 0;
   hr2d_status status = hr2di_krylov(&system, s->b, s->y, &residual);
@@ -310,9 +342,11 @@ static void balance(hr2di_equation *s) {
   const hr2di_transport *t = &s->transport;
   hr2di_balance_correct(&s->balance, t, s->source, s->irradiance);
   hr2di_balance_add(&s->balance, t, s->irradiance);
+  memcpy(s->work, s->irradiance, s->field * sizeof *s->work);
+  hr2di_equation_scatter(s, s->work);
   for (size_t k = 0; k < s->field; k++)
     if (hr2di_balance_holds(&s->balance, k / t->width))
-      s->radiosity[k] = s->source[k] + s->root_rho[k] * s->root_rho[k] * s->irradiance[k];
+      s->radiosity[k] = s->source[k] + s->work[k];
 }
 
 hr2d_status hr2di_equation_take(hr2di_equation *s) {
@@ -333,20 +367,36 @@ static double constant_of(const hr2di_equation *s, size_t k) {
 void hr2di_equation_defect(hr2di_equation *s, const double *radiosity, double *out) {
   for (size_t k = 0; k < s->field; k++) s->work[k] = radiosity[k] - constant_of(s, k);
   gather_rest(s, s->work, out);
-  for (size_t k = 0; k < s->field; k++)
-    out[k] = s->root_rho[k] * s->root_rho[k] * out[k] - s->work[k];
+  hr2di_equation_scatter(s, out);
+  for (size_t k = 0; k < s->field; k++) out[k] -= s->work[k];
   set_fluctuation(s, NULL, s->work);
   for (size_t k = 0; k < s->field; k++) out[k] += s->work[k];
 }
 
+/* `b` is the work space: a solve sets it before it is read. */
+void hr2di_equation_set_panes_unknown(hr2di_equation *s, const double *radiosity) {
+  if (s->panes.pairs == 0) return;
+  for (size_t k = 0; k < s->field; k++) s->b[k] = constant_of(s, k);
+  apply_panes(s, HR2DI_SCATTERING, s->b);
+  for (size_t k = 0; k < s->field; k++) s->b[k] = radiosity[k] - s->source[k] - s->b[k];
+  apply_panes(s, HR2DI_SCATTERING_INVERSE_ROOT, s->b);
+  for (size_t m = 0; m < s->panes.pairs; m++) {
+    const size_t width = s->transport.width, front = s->panes.pair[m].front * width,
+                 back = s->panes.pair[m].back * width;
+    memcpy(s->y + front, s->b + front, width * sizeof *s->y);
+    memcpy(s->y + back, s->b + back, width * sizeof *s->y);
+  }
+}
+
 double hr2di_equation_residual(hr2di_equation *s) {
   const hr2di_krylov_system system = make_system(s);
-  if (s->balance.count > 0)
+  if (s->balance.count > 0) {
     hr2di_equation_defect(s, s->radiosity, s->y);
-  else
-    for (size_t k = 0; k < s->field; k++)
-      s->y[k] =
-          s->source[k] + s->root_rho[k] * s->root_rho[k] * s->irradiance[k] - s->radiosity[k];
+  } else {
+    memcpy(s->y, s->irradiance, s->field * sizeof *s->y);
+    hr2di_equation_scatter(s, s->y);
+    for (size_t k = 0; k < s->field; k++) s->y[k] = s->source[k] + s->y[k] - s->radiosity[k];
+  }
   hr2di_krylov_dot(&system, s->y, s->y, s->norm[0]);
   hr2di_krylov_dot(&system, s->radiosity, s->radiosity, s->norm[1]);
   double max = 0;
@@ -358,6 +408,7 @@ double hr2di_equation_residual(hr2di_equation *s) {
 void hr2di_equation_clear(hr2di_equation *s) {
   hr2di_balance_clear(&s->balance);
   hr2di_transport_clear(&s->transport);
+  hr2di_scattering_clear(&s->panes, &s->links->alloc);
   hr2di_alloc_free(&s->links->alloc, s->space);
   hr2di_alloc_free(&s->links->alloc, s->outside);
   hr2di_alloc_free(&s->links->alloc, s->exponent);

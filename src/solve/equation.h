@@ -8,6 +8,7 @@
 
 #include "base/krylov.h"
 #include "solve/energy-balance.h"
+#include "solve/scattering.h"
 #include "solve/transport.h"
 #include "visibility/beam-cache.h"
 
@@ -27,17 +28,18 @@ typedef struct hr2di_equation {
   hr2di_watch watch; /* asks the callback of the options, or that of the scene */
   hr2di_transport transport;
   hr2di_balance balance;
-  int background;   /* light comes in from the surroundings */
-  double *outside;  /* a field: the irradiance that this light makes; NULL for none */
-  int *exponent;    /* per band: E, B and H are 2^exponent times the values held here */
-  size_t items;     /* leaves × order */
-  size_t field;     /* items × bands */
-  double *space;    /* holds all arrays below */
-  double *weight;   /* A of each item's leaf */
-  double *square;   /* A² where a solve takes the norm of powers, else NULL */
-  double *source;   /* E at first */
-  double *light;    /* per band: of the background */
-  double *root_rho; /* √ρ */
+  int background;         /* light comes in from the surroundings */
+  double *outside;        /* a field: the irradiance that this light makes; NULL for none */
+  int *exponent;          /* per band: E, B and H are 2^exponent times the values held here */
+  size_t items;           /* leaves × order */
+  size_t field;           /* items × bands */
+  double *space;          /* holds all arrays below */
+  double *weight;         /* A of each item's leaf */
+  double *square;         /* A² where a solve takes the norm of powers, else NULL */
+  double *source;         /* E at first */
+  double *light;          /* per band: of the background */
+  double *root_rho;       /* √ρ; 1 on panes */
+  hr2di_scattering panes; /* has what leaves of panes do */
   double *radiosity;
   double *irradiance; /* of `radiosity` */
   double *y, *b, *work;
@@ -84,6 +86,13 @@ hr2d_status hr2di_equation_set_light(hr2di_equation *eq);
 /* Makes the fields of an equation that has its transport, all 0 but weights.  Returns HR2D_OK
    or HR2D_ENOMEM. */
 hr2d_status hr2di_equation_reserve(hr2di_equation *eq);
+
+/* field = ρ field, and on panes S field: the light that leaves the leaves on which it falls. */
+void hr2di_equation_scatter(const hr2di_equation *eq, double *field);
+
+/* y on panes, of B and with the balance set: the part of B = Q + Sc + Ly that has an inverse.
+ */
+void hr2di_equation_set_panes_unknown(hr2di_equation *eq, const double *radiosity);
 
 /* eq->irradiance = K radiosity + the irradiance from the background. */
 void hr2di_equation_gather(hr2di_equation *eq, const double *radiosity);

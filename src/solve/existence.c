@@ -6,6 +6,7 @@
 #include "solve/existence.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/alloc.h"
 #include "hierarchy/hierarchy-impl.h"
@@ -15,7 +16,9 @@
 
 typedef struct exchange {
   hr2di_components components;
-  hr2di_sum *escape; /* per patch its defect, then per component their sum */
+  uint32_t *without_panes; /* their parents, as long as nothing passes through panes */
+  hr2di_sum *defect;       /* per patch */
+  hr2di_sum *escape;       /* per component the sum of these */
   double *length;
 } exchange;
 
@@ -30,12 +33,19 @@ static hr2d_status add_clusters(const hr2d_linkset *links, exchange *e, hr2di_wa
   const hr2di_cluster_gather how = {
       .order = 1, .bands = 1, .share = links->share, .threads = 1, .watch = watch};
   const hr2d_status status = hr2di_clusters_gather(links->roots.clusters, &how, unit, power);
-  for (size_t k = 0; k < n; k++) hr2di_sum_add(&e->escape[k], -power[k]);
+  for (size_t k = 0; k < n; k++) hr2di_sum_add(&e->defect[k], -power[k]);
   hr2di_alloc_free(&links->alloc, unit);
   return status;
 }
 
-static void sum_up(const hr2d_scene *scene, exchange *e) {
+/* Sums over the components of a band, or for SIZE_MAX of all bands together. */
+static void sum_up(const hr2d_scene *scene, exchange *e, size_t band) {
+  memcpy(e->components.parent, e->without_panes, e->components.count * sizeof(uint32_t));
+  hr2di_components_join_panes(&e->components, scene, band);
+  for (size_t k = 0; k < scene->patches; k++) {
+    e->length[k] = scene->patch[k].length;
+    e->escape[k] = e->defect[k];
+  }
   for (size_t k = 0; k < scene->patches; k++) {
     const size_t root = hr2di_component(&e->components, k);
     if (root == k) continue;
@@ -69,9 +79,10 @@ static double closed_below(const hr2d_linkset *links) {
 static hr2d_status check_band(hr2d_linkset *links, const hr2d_scene *scene, exchange *e,
                               size_t band, unsigned char *absorbs) {
   const double closed = closed_below(links);
+  if (band == 0 || scene->other_side) sum_up(scene, e, band);
   for (size_t k = 0; k < scene->patches; k++) absorbs[k] = 0;
   for (size_t k = 0; k < scene->patches; k++)
-    if (hr2d_scene_reflectance(scene, k, band) < 1)
+    if (hr2di_scene_absorptance(scene, k, band) > 0)
       absorbs[hr2di_component(&e->components, k)] = 1;
   for (size_t k = 0; k < scene->patches; k++) {
     const size_t root = hr2di_component(&e->components, k);
@@ -87,10 +98,11 @@ static hr2d_status check_band(hr2d_linkset *links, const hr2d_scene *scene, exch
 /* Patches of given flux in several bands give in one band what they absorb in another. */
 static hr2d_status check_heat(hr2d_linkset *links, const hr2d_scene *scene, exchange *e,
                               unsigned char *absorbs) {
+  if (scene->other_side) sum_up(scene, e, SIZE_MAX);
   for (size_t k = 0; k < scene->patches; k++) absorbs[k] = 0;
   for (size_t k = 0; k < scene->patches; k++)
     for (size_t band = 0; band < scene->bands; band++)
-      if (hr2d_scene_reflectance(scene, k, band) < 1 &&
+      if (hr2di_scene_absorptance(scene, k, band) > 0 &&
           hr2d_scene_heat(scene, k, NULL) != HR2D_HEAT_FLUX)
         absorbs[hr2di_component(&e->components, k)] = 1;
   for (size_t k = 0; k < scene->patches; k++) {
@@ -106,20 +118,23 @@ static hr2d_status check_heat(hr2d_linkset *links, const hr2d_scene *scene, exch
 static int some_patch_absorbs_nothing(const hr2d_scene *scene) {
   for (size_t k = 0; k < scene->patches; k++)
     for (size_t band = 0; band < scene->bands; band++)
-      if (hr2d_scene_reflectance(scene, k, band) == 1) return 1;
+      if (!(hr2di_scene_absorptance(scene, k, band) > 0)) return 1;
   return 0;
 }
 
 static hr2d_status sum_exchange(const hr2d_linkset *links, exchange *e, hr2di_watch *watch) {
   const hr2d_scene *scene = links->hierarchy->scene;
   hr2d_status status = hr2di_components_init(&e->components, links, watch);
-  for (size_t k = 0; k < scene->patches; k++) e->length[k] = scene->patch[k].length;
-  if (!status) status = hr2di_defect_sum(links, e->escape, watch);
+  if (!status) {
+    e->without_panes =
+        hr2di_alloc(&links->alloc, e->components.count, sizeof *e->without_panes);
+    status = e->without_panes ? HR2D_OK : HR2D_ENOMEM;
+  }
+  if (!status)
+    memcpy(e->without_panes, e->components.parent, e->components.count * sizeof(uint32_t));
+  if (!status) status = hr2di_defect_sum(links, e->defect, watch);
   if (!status) status = add_clusters(links, e, watch);
-  if (!status) status = hr2di_watch_work(watch, scene->patches / 2);
-  if (status) return status;
-  sum_up(scene, e);
-  return HR2D_OK;
+  return status ? status : hr2di_watch_work(watch, scene->patches / 2);
 }
 
 hr2d_status hr2di_existence_check(hr2d_linkset *links, const hr2d_scene *scene,
@@ -127,12 +142,13 @@ hr2d_status hr2di_existence_check(hr2d_linkset *links, const hr2d_scene *scene,
   const int heat = scene->found != NULL;
   if (!heat && !some_patch_absorbs_nothing(scene)) return HR2D_OK;
   const hr2d_allocator *alloc = &links->alloc;
-  exchange e = {.escape = hr2di_alloc(alloc, scene->patches, sizeof *e.escape),
+  exchange e = {.defect = hr2di_alloc(alloc, scene->patches, sizeof *e.defect),
+                .escape = hr2di_alloc(alloc, scene->patches, sizeof *e.escape),
                 .length = hr2di_alloc(alloc, scene->patches, sizeof *e.length)};
   e.components.alloc = *alloc;
   unsigned char *absorbs = hr2di_alloc(alloc, scene->patches, 1);
   hr2d_status status = HR2D_ENOMEM;
-  if (e.escape && e.length && absorbs) status = sum_exchange(links, &e, watch);
+  if (e.defect && e.escape && e.length && absorbs) status = sum_exchange(links, &e, watch);
   if (status)
     hr2di_message_fail(&links->message, status, "%s",
                        watch->refused ? hr2d_strerror(status) : "out of memory for the solve");
@@ -140,6 +156,8 @@ hr2d_status hr2di_existence_check(hr2d_linkset *links, const hr2d_scene *scene,
     status = check_band(links, scene, &e, band, absorbs);
   if (!status && heat) status = check_heat(links, scene, &e, absorbs);
   hr2di_components_clear(&e.components);
+  hr2di_alloc_free(alloc, e.without_panes);
+  hr2di_alloc_free(alloc, e.defect);
   hr2di_alloc_free(alloc, e.escape);
   hr2di_alloc_free(alloc, e.length);
   hr2di_alloc_free(alloc, absorbs);

@@ -81,5 +81,6 @@ void hr2di_equation_part_clear(hr2di_equation *part) {
   hr2di_alloc_free(&t->alloc, t->down);
   hr2di_alloc_free(&t->alloc, t->closure);
   hr2di_alloc_free(&t->alloc, t->leading);
+  hr2di_scattering_clear(&part->panes, &t->alloc);
   hr2di_alloc_free(&t->alloc, part->space);
 }

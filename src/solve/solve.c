@@ -59,6 +59,9 @@ static hr2d_status warm_start(hr2di_equation *s) {
       const size_t at = k * t->width + b;
       s->y[at] -= s->root_rho[at] * hr2di_balance_at(&s->balance, t, k, b);
     }
+  for (size_t k = 0; k < s->field && s->panes.pairs > 0; k++)
+    s->radiosity[k] = ldexp(s->radiosity[k], -s->exponent[k % t->bands]);
+  hr2di_equation_set_panes_unknown(s, s->radiosity);
   return HR2D_OK;
 }
 
@@ -87,7 +90,7 @@ static hr2d_power sum_power(const hr2di_equation *s, size_t band) {
   hr2di_sum emitted = {0, 0}, received = {0, 0}, absorbed = {0, 0}, escaped = {0, 0};
   for (size_t k = 0; k < t->leaves; k++) {
     const size_t at = k * t->width + band, patch = t->hierarchy->element[t->leaf[k]].patch;
-    const double absorbance = 1 - hr2d_scene_reflectance(scene, patch, band);
+    const double absorbance = hr2di_scene_absorptance(scene, patch, band);
     const double area = s->weight[k * t->order];
     if (patch >= hr2di_scene_cell(scene)) continue;
     hr2di_sum_add(&emitted, area * s->source[at]);

@@ -8,6 +8,7 @@
    once more, twice more and so on, a few times ε. */
 #include <math.h>
 
+#include "hierarchy/hierarchy-impl.h"
 #include "solve/equation.h"
 
 /* |field| on a leaf at most, but for the factors √(2l+1). */
@@ -19,8 +20,20 @@ static double size_of(const hr2di_equation *s, const double *field, size_t leaf,
   return sum;
 }
 
-static double root_rho(const hr2di_equation *s, size_t leaf, size_t band) {
-  return s->root_rho[leaf * s->transport.width + band];
+static double scattered(const hr2di_transport *t, size_t leaf, size_t band) {
+  return hr2di_scene_scattered(t->scene, t->hierarchy->element[t->leaf[leaf]].patch, band);
+}
+
+/* What a residual of y on a leaf makes of B.  On a pane that is Lr, and the squares of a row of
+   L add up to an entry of |S|, which is at most the largest ρ + τ. */
+static double size_in_radiosity(const hr2di_equation *s, const double *r, size_t leaf,
+                                size_t band) {
+  const hr2di_transport *t = &s->transport;
+  const size_t other = t->other_leaf ? t->other_leaf[leaf] : leaf;
+  if (other != leaf)
+    return sqrt(fmax(scattered(t, leaf, band), scattered(t, other, band))) *
+           hypot(size_of(s, r, leaf, band), size_of(s, r, other, band));
+  return s->root_rho[leaf * s->transport.width + band] * size_of(s, r, leaf, band);
 }
 
 /* The light that a leaf reflects. */
@@ -34,7 +47,7 @@ static int is_small_everywhere(const hr2di_equation *s, const double *r, size_t 
   double max = 0;
   for (size_t k = 0; k < t->leaves; k++) max = fmax(max, reflected(s, k, band));
   for (size_t k = 0; k < t->leaves; k++) {
-    const double off = root_rho(s, k, band) * size_of(s, r, k, band);
+    const double off = size_in_radiosity(s, r, k, band);
     const double min = fmax(reflected(s, k, band), s->enough.floor * max);
     if (!(off <= s->enough.part * min)) return 0;
   }
@@ -47,7 +60,7 @@ static int is_small_at_max(const hr2di_equation *s, const double *r, size_t band
   double off = 0, all = 0;
   for (size_t k = 0; k < t->leaves; k++) {
     const double weight = s->enough.weight[k * t->bands + band];
-    off = fmax(off, weight * (root_rho(s, k, band) * size_of(s, r, k, band)));
+    off = fmax(off, weight * (size_in_radiosity(s, r, k, band)));
     all = fmax(all, weight * size_of(s, s->radiosity, k, band));
   }
   return off <= s->enough.part * all;
@@ -61,7 +74,7 @@ static int is_small_in_sum(const hr2di_equation *s, const double *r, size_t band
   for (size_t k = 0; k < t->leaves; k++) {
     const double weight = s->enough.weight[k * t->bands + band];
     const double size = weight > 0 ? s->weight[k * t->order] / weight : 0;
-    off += size * (root_rho(s, k, band) * size_of(s, r, k, band));
+    off += size * (size_in_radiosity(s, r, k, band));
     all += size * size_of(s, s->radiosity, k, band);
   }
   return off <= s->enough.part * all;

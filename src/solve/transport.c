@@ -9,6 +9,7 @@
 #include "base/choices.h"
 #include "base/team.h"
 #include "hierarchy/hierarchy-impl.h"
+#include "hierarchy/pane-trees.h"
 #include "scene/scene-impl.h"
 #include "solve/block-part.h"
 #include "solve/gather-areas.h"
@@ -36,6 +37,22 @@ size_t hr2di_transport_slices(const hr2d_linkset *links, size_t order) {
     if (max > MOST_BLOCK_SLICES) max = MOST_BLOCK_SLICES;
   }
   return slices < 1 ? 1 : (size_t)(slices < max ? slices : max);
+}
+
+/* Elements on both sides of a pane are alike, and so are its leaves. */
+static hr2d_status find_other_leaves(hr2di_transport *t) {
+  const hr2d_hierarchy *h = t->hierarchy;
+  if (!h->scene->other_side) return HR2D_OK;
+  uint32_t *other = hr2di_alloc(&t->alloc, 2 * t->elements, sizeof *other);
+  t->other_leaf = hr2di_alloc(&t->alloc, t->leaves, sizeof *t->other_leaf);
+  hr2d_status status = HR2D_ENOMEM;
+  if (other && t->other_leaf) status = hr2di_pane_trees_map(h, other, &t->alloc, t->watch);
+  for (size_t k = 0; k < t->leaves && !status; k++)
+    other[t->elements + t->leaf[k]] = (uint32_t)k;
+  for (size_t k = 0; k < t->leaves && !status; k++)
+    t->other_leaf[k] = other[t->elements + other[t->leaf[k]]];
+  hr2di_alloc_free(&t->alloc, other);
+  return status;
 }
 
 hr2d_status hr2di_transport_init(hr2di_transport *t, const hr2d_linkset *links, size_t order,
@@ -68,6 +85,8 @@ hr2d_status hr2di_transport_init(hr2di_transport *t, const hr2d_linkset *links, 
   for (size_t e = 0; e < t->elements; e++)
     if (!h->element[e].child) t->leaf[t->leaves++] = (uint32_t)e;
   if (links->share && hr2di_shared_gather_init(t)) return HR2D_ENOMEM;
+  const hr2d_status sides = find_other_leaves(t);
+  if (sides) return sides;
   const hr2d_status mapped = hr2di_image_map_init(&t->image_map, h, &t->alloc, watch);
   return mapped ? mapped : hr2di_transport_lead(t, &links->blocks);
 }
@@ -93,6 +112,7 @@ void hr2di_transport_clear(hr2di_transport *t) {
   hr2di_cluster_room_clear(&t->room);
   hr2di_alloc_free(&t->alloc, t->leading);
   hr2di_alloc_free(&t->alloc, t->leaf);
+  hr2di_alloc_free(&t->alloc, t->other_leaf);
   hr2di_alloc_free(&t->alloc, t->up);
   hr2di_alloc_free(&t->alloc, t->down);
   if (t->send != t->receive) hr2di_alloc_free(&t->alloc, t->send);

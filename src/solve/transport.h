@@ -23,8 +23,10 @@ typedef struct hr2di_transport {
   hr2di_image_map image_map;
   size_t order, bands, width; /* width is order × bands */
   size_t elements, leaves;
-  uint32_t *leaf;              /* the element of each leaf */
-  double *up;                  /* elements × width: radiosity */
+  uint32_t *leaf;       /* the element of each leaf */
+  uint32_t *other_leaf; /* the leaf on the other side of a pane, elsewhere the leaf itself; NULL
+                           without panes */
+  double *up;           /* elements × width: radiosity */
   struct hr2di_shared *shared; /* sums over shares; NULL: there is but one */
   double *down;     /* per slice the same: power received; then in the first one irradiance */
   double *receive;  /* order 1: factors per element for the push; NULL: light spreads evenly */

@@ -6,11 +6,12 @@
      effects that are forced, the bands of the background and the number of wavelengths, as
      words; with daylight or symmetry, for which the line is another one, the numbers of suns,
      of pieces of the sky and of bands of these as well; with symmetry, for which the line is a
-     third one, the number of mirrors;
+     third one, the number of mirrors; with panes all of these, and a fourth line;
    - the background, the wavelengths, the suns, and the pieces with their values; with symmetry
      the period and the mirrors;
    - per patch: whether it has the light of the one before, as a half word; if not, what heat is
-     given, the bands of E, ρ and ε, as words, the heat and their values; the ends; the length
+     given, the bands of E, ρ and ε, with panes of τ, as words, the heat and their values; the
+     ends; the length
      of the name, as a half word, and the name;
    - the hash of the scene in memory, and that of all bytes.
 
@@ -21,6 +22,7 @@
 #define HR2DI_SCENE_TITLE          "libhr2d scene 1\n"
 #define HR2DI_SCENE_DAY_TITLE      "libhr2d scene 2\n"
 #define HR2DI_SCENE_SYMMETRY_TITLE "libhr2d scene 3\n"
+#define HR2DI_SCENE_PANES_TITLE    "libhr2d scene 4\n"
 
 enum {
   HR2DI_SCENE_TITLE_BYTES = sizeof HR2DI_SCENE_TITLE - 1,

@@ -15,6 +15,7 @@ typedef struct loading {
   hr2di_reader reader;
   hr2di_watch watch;
   hr2d_scene *scene;
+  int panes;     /* lights have a transmittance */
   double *value; /* of the light of a patch */
   size_t values;
   char *name;
@@ -80,15 +81,16 @@ static int is_thermal(const hr2d_patch *patch, const hr2d_thermal *t) {
 /* Its arrays are in l->value. */
 static hr2d_status read_light(loading *l, hr2d_patch *patch, hr2d_thermal *t) {
   hr2di_reader *r = &l->reader;
-  uint64_t bands[3];
+  const int numbers = l->panes ? 4 : 3;
+  uint64_t bands[4] = {0};
   const uint64_t heat = hr2di_reader_word(r);
-  for (int k = 0; k < 3; k++) bands[k] = hr2di_reader_word(r);
+  for (int k = 0; k < numbers; k++) bands[k] = hr2di_reader_word(r);
   t->value = hr2di_reader_double(r);
   if (r->status) return r->status;
   if (heat > HR2D_HEAT_FLUX) return damaged(l, "what is given of a patch");
-  for (int k = 0; k < 3; k++)
+  for (int k = 0; k < numbers; k++)
     if (bands[k] > UINT64_MAX / 32) return damaged(l, "its number of bands");
-  const hr2d_status status = read_values(l, bands[0] + bands[1] + bands[2]);
+  const hr2d_status status = read_values(l, bands[0] + bands[1] + bands[2] + bands[3]);
   if (status) return status;
   t->given = (hr2d_heat)heat;
   patch->emission_bands = (size_t)bands[0];
@@ -97,6 +99,8 @@ static hr2d_status read_light(loading *l, hr2d_patch *patch, hr2d_thermal *t) {
   patch->emission = l->value;
   patch->reflectance = bands[1] > 0 ? l->value + bands[0] : NULL;
   t->emissivity = bands[2] > 0 ? l->value + bands[0] + bands[1] : NULL;
+  patch->transmittance_bands = (size_t)bands[3];
+  patch->transmittance = bands[3] > 0 ? l->value + bands[0] + bands[1] + bands[2] : NULL;
   return HR2D_OK;
 }
 
@@ -114,7 +118,7 @@ static hr2d_status read_patch(loading *l) {
   if (!status) status = r->status ? r->status : read_name(l);
   if (status) return status;
   patch.name = l->name;
-  if (same_light) return hr2di_scene_add_alike(l->scene, &patch);
+  if (same_light) return hr2di_scene_add_alike(l->scene, &patch, l->scene->patches - 1);
   if (thermal.given == HR2D_HEAT_NONE) return hr2d_scene_add(l->scene, &patch, NULL);
   if (!is_thermal(&patch, &thermal)) return damaged(l, "the heat of a patch");
   return hr2di_scene_add(l->scene, &patch, &thermal, NULL);
@@ -180,7 +184,8 @@ static hr2d_status read_symmetry(loading *l, uint64_t mirrors) {
   v += HR2DI_SCENE_PERIOD_DOUBLES;
   for (uint64_t k = 0; k < mirrors && !status; k++, v += HR2DI_SCENE_MIRROR_DOUBLES)
     status = hr2d_scene_add_mirror(l->scene, (hr2d_segment){{v[0], v[1]}, {v[2], v[3]}});
-  if (!status && !hr2di_symmetry_wanted(&l->scene->symmetry)) return damaged(l, "its symmetry");
+  if (!status && !l->panes && !hr2di_symmetry_wanted(&l->scene->symmetry))
+    return damaged(l, "its symmetry");
   return status;
 }
 
@@ -201,11 +206,11 @@ typedef struct head {
 /* The line that names the format: which one, from 0, or −1. */
 static int read_title(loading *l) {
   static const char *const titles[] = {HR2DI_SCENE_TITLE, HR2DI_SCENE_DAY_TITLE,
-                                       HR2DI_SCENE_SYMMETRY_TITLE};
+                                       HR2DI_SCENE_SYMMETRY_TITLE, HR2DI_SCENE_PANES_TITLE};
   char title[HR2DI_SCENE_TITLE_BYTES];
   hr2di_reader_expect(&l->reader, HR2DI_SCENE_TITLE_BYTES + 8 * HR2DI_SCENE_HEAD_WORDS);
   hr2di_reader_text(&l->reader, title, HR2DI_SCENE_TITLE_BYTES);
-  for (int k = 0; k < 3 && !l->reader.status; k++)
+  for (int k = 0; k < 4 && !l->reader.status; k++)
     if (memcmp(title, titles[k], HR2DI_SCENE_TITLE_BYTES) == 0) return k;
   return -1;
 }
@@ -213,7 +218,8 @@ static int read_title(loading *l) {
 static hr2d_status read_head(loading *l, head *h) {
   hr2di_reader *r = &l->reader;
   const int format = read_title(l);
-  *h = (head){.symmetric = format == 2};
+  *h = (head){.symmetric = format >= 2};
+  l->panes = format == 3;
   if (r->status) return r->status;
   if (format < 0)
     return hr2di_message_fail(&l->scene->message, HR2D_ESYNTAX,

@@ -14,19 +14,28 @@ static int has_same_light(const hr2d_scene *scene, size_t patch) {
 }
 
 static size_t values_of(const hr2di_light *l) {
-  return l->emission_bands + l->reflectance_bands + l->emissivity_bands;
+  return l->emission_bands + l->reflectance_bands + l->emissivity_bands +
+         l->transmittance_bands;
+}
+
+/* A transmittance of 0 is no pane, but a part of a light. */
+static int has_panes(const hr2d_scene *scene) {
+  size_t k = 0;
+  while (k < hr2di_scene_cell(scene) && !scene->patch[k].light->transmittance_bands) k++;
+  return k < hr2di_scene_cell(scene);
 }
 
 static int has_day(const hr2d_scene *scene) {
   return scene->sun_bands || scene->sky.pieces;
 }
 
+/* Whether a period and mirrors are written. */
 static int has_symmetry(const hr2d_scene *scene) {
-  return hr2di_symmetry_wanted(&scene->symmetry);
+  return hr2di_symmetry_wanted(&scene->symmetry) || has_panes(scene);
 }
 
 static uint64_t count_bytes(const hr2d_scene *scene) {
-  const size_t mirrors = scene->symmetry.mirrors;
+  const size_t mirrors = scene->symmetry.mirrors, numbers = has_panes(scene) ? 6 : 5;
   uint64_t bytes = 8 * (scene->background_bands + scene->wavelengths + 1);
   if (has_symmetry(scene))
     bytes += 8 * (HR2DI_SCENE_PERIOD_DOUBLES + HR2DI_SCENE_MIRROR_DOUBLES * (uint64_t)mirrors);
@@ -35,7 +44,7 @@ static uint64_t count_bytes(const hr2d_scene *scene) {
   for (size_t k = 0; k < hr2di_scene_cell(scene); k++) {
     const hr2di_patch *p = &scene->patch[k];
     bytes += 4 + 4 * 8 + 4 + strlen(p->name);
-    if (!has_same_light(scene, k)) bytes += 8 * (5 + values_of(p->light));
+    if (!has_same_light(scene, k)) bytes += 8 * (numbers + values_of(p->light));
   }
   return bytes;
 }
@@ -52,11 +61,12 @@ static void put_name(hr2di_writer *w, const char *name) {
   }
 }
 
-static void put_light(hr2di_writer *w, const hr2di_light *l) {
+static void put_light(hr2di_writer *w, const hr2di_light *l, int panes) {
   hr2di_writer_word(w, (uint64_t)l->heat);
   hr2di_writer_word(w, l->emission_bands);
   hr2di_writer_word(w, l->reflectance_bands);
   hr2di_writer_word(w, l->emissivity_bands);
+  if (panes) hr2di_writer_word(w, l->transmittance_bands);
   hr2di_writer_double(w, l->given);
   for (size_t k = 0; k < values_of(l); k++) hr2di_writer_double(w, l->value[k]);
 }
@@ -67,9 +77,10 @@ static void put_segment(hr2di_writer *w, hr2d_segment s) {
 }
 
 /* As it was drawn: commit may have moved it by periods. */
-static void put_patch(hr2di_writer *w, const hr2d_scene *scene, size_t patch, int same_light) {
+static void put_patch(hr2di_writer *w, const hr2d_scene *scene, size_t patch, int same_light,
+                      int panes) {
   hr2di_writer_half(w, (uint32_t)same_light);
-  if (!same_light) put_light(w, scene->patch[patch].light);
+  if (!same_light) put_light(w, scene->patch[patch].light, panes);
   put_segment(w, hr2d_scene_segment(scene, patch));
   put_name(w, scene->patch[patch].name);
 }
@@ -81,9 +92,10 @@ static uint64_t forced_effects(const hr2d_scene *scene) {
 }
 
 static const char *title_of(const hr2d_scene *scene) {
-  return has_symmetry(scene) ? HR2DI_SCENE_SYMMETRY_TITLE
-         : has_day(scene)    ? HR2DI_SCENE_DAY_TITLE
-                             : HR2DI_SCENE_TITLE;
+  return has_panes(scene)      ? HR2DI_SCENE_PANES_TITLE
+         : has_symmetry(scene) ? HR2DI_SCENE_SYMMETRY_TITLE
+         : has_day(scene)      ? HR2DI_SCENE_DAY_TITLE
+                               : HR2DI_SCENE_TITLE;
 }
 
 static void put_head(hr2di_writer *w, const hr2d_scene *scene) {
@@ -128,6 +140,7 @@ hr2d_status hr2d_state_write_scene(const hr2d_scene *scene, hr2d_write_fn write,
   if (!scene || !write) return HR2D_EINVAL;
   if (!scene->committed) return HR2D_ESTATE;
   const size_t patches = hr2di_scene_cell(scene);
+  const int panes = has_panes(scene);
   for (size_t k = 0; k < patches; k++)
     if (hr2di_emissivity_depends(scene, k)) return HR2D_EUNSUPPORTED;
   hr2di_writer w;
@@ -139,7 +152,7 @@ hr2d_status hr2d_state_write_scene(const hr2d_scene *scene, hr2d_write_fn write,
   if (has_symmetry(scene)) put_symmetry(&w, &scene->symmetry);
   for (size_t k = 0; k < patches && !w.status; k++) {
     const int same_light = has_same_light(scene, k);
-    put_patch(&w, scene, k, same_light);
+    put_patch(&w, scene, k, same_light, panes);
     if (!w.status)
       w.status = hr2di_watch_work(&watch,
                                   1 + (same_light ? 0 : values_of(scene->patch[k].light) / 16));

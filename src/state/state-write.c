@@ -33,7 +33,8 @@ static hr2di_hash add_images(hr2di_hash hash, const hr2di_symmetry *s) {
 uint64_t hr2di_state_scene(const hr2d_scene *scene, hr2di_watch *watch) {
   hr2di_hash hash = hr2di_hash_word(HR2DI_HASH_INIT, scene->patches);
   for (int e = 0; e < HR2D_EFFECT_COUNT; e++)
-    hash = hr2di_hash_word(hash, (uint64_t)scene->effect[e].on);
+    if (e != HR2D_EFFECT_PANES || scene->other_side) /* scenes without panes keep their hash */
+      hash = hr2di_hash_word(hash, (uint64_t)scene->effect[e].on);
   for (size_t k = 0; k < scene->patches; k++) {
     if (hr2di_watch_work(watch, 1 + scene->bands / 2)) break;
     const hr2d_segment s = scene->patch[k].given;
@@ -42,6 +43,8 @@ uint64_t hr2di_state_scene(const hr2d_scene *scene, hr2di_watch *watch) {
     for (size_t band = 0; band < scene->bands; band++) {
       hash = hr2di_hash_double(hash, hr2d_scene_emission(scene, k, band));
       hash = hr2di_hash_double(hash, hr2d_scene_reflectance(scene, k, band));
+      if (scene->other_side)
+        hash = hr2di_hash_double(hash, hr2d_scene_transmittance(scene, k, band));
     }
   }
   for (size_t band = 0; band < scene->bands; band++)

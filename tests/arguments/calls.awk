@@ -80,7 +80,7 @@ BEGIN {
 
   # Numbers of items of an array: too large a one cannot be noticed.
   n = split("count size bands pieces room important_count emission_bands reflectance_bands " \
-    "emissivity_bands kelvins order columns rows first from to", list, " ")
+    "transmittance_bands emissivity_bands kelvins order columns rows first from to", list, " ")
   for (k = 1; k <= n; k++) counts[list[k]] = 1
   # A number is as good as any other; or the value of a wrong argument is a text all the same.
   n = split("linkset_read.first options_init.size hierarchy_set_order.order", list, " ")

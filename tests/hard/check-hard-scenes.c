@@ -496,8 +496,16 @@ START_TEST(bands_are_solved_alike) {
         e[(b + turn) % 3] = (b + 1) * box[k][4];
         rho[(b + turn) % 3] = box[k][5] * (b + 1) / 3;
       }
-      const hr2d_patch patch = {
-          {box[k][0], box[k][1]}, {box[k][2], box[k][3]}, NULL, e, 3, rho, 3, HR2D_SIDES_FRONT};
+      const hr2d_patch patch = {{box[k][0], box[k][1]},
+                                {box[k][2], box[k][3]},
+                                NULL,
+                                e,
+                                3,
+                                rho,
+                                3,
+                                HR2D_SIDES_FRONT,
+                                NULL,
+                                0};
       ck_assert_int_eq(hr2d_scene_add(scene, &patch, NULL), HR2D_OK);
     }
     ck_assert_int_eq(hr2d_scene_commit(scene), HR2D_OK);
