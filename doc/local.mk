@@ -25,6 +25,7 @@ EXTRA_DIST += \
 	doc/architecture-figure.sh \
 	doc/figures.sh \
 	doc/figures \
+	doc/gas.md \
 	doc/howto \
 	doc/tutorial \
 	doc/check-links.awk \

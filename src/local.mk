@@ -8,6 +8,7 @@ libhr2d_core_la_LIBADD = $(GSL_LIBS) $(JANSSON_LIBS) -lm
 libhr2d_core_la_SOURCES = \
 	src/base/alloc.c src/base/alloc.h \
 	src/base/bin.h \
+	src/base/bickley.c src/base/bickley.h src/base/bickley-tables.h \
 	src/base/black-body.c src/base/black-body.h \
 	src/base/choices.h \
 	src/base/clock.h \
@@ -82,6 +83,7 @@ libhr2d_core_la_SOURCES = \
 	src/scene/emissivity.c src/scene/emissivity.h \
 	src/scene/facing-in-part.c src/scene/facing-in-part.h \
 	src/scene/find-occluder.c src/scene/find-occluder.h \
+	src/scene/gas.c src/scene/gas.h \
 	src/scene/in-between.c src/scene/in-between.h \
 	src/scene/lit-parts.c \
 	src/scene/need-plane.c \
@@ -122,6 +124,7 @@ libhr2d_core_la_SOURCES = \
 	src/formats/geojson-impl.h \
 	src/formats/geojson-meant.c src/formats/geojson-meant.h \
 	src/formats/geojson-sun.c \
+	src/formats/geojson-medium.c \
 	src/formats/geojson-symmetry.c \
 	src/formats/geojson-text.c src/formats/geojson-text.h \
 	src/formats/geojson-thermal.c \
@@ -181,6 +184,7 @@ libhr2d_core_la_SOURCES = \
 	src/blocks/distant.c \
 	src/blocks/line-frame.c \
 	src/blocks/line-vector.h \
+	src/blocks/gas-lines.c src/blocks/gas-lines.h \
 	src/blocks/lines.c src/blocks/lines.h \
 	src/blocks/moment-batches.h \
 	src/blocks/moments.c src/blocks/moments.h \
@@ -266,6 +270,7 @@ libhr2d_core_la_SOURCES = \
 	src/solve/gather-blocks.c src/solve/gather-blocks.h \
 	src/solve/gather-links.c src/solve/gather-links.h \
 	src/solve/gather-one-way.c src/solve/gather-one-way.h \
+	src/solve/gas-rows.c src/solve/gas-rows.h \
 	src/solve/heat-balance.c src/solve/heat-balance.h \
 	src/solve/heat-scene.c src/solve/heat-scene.h \
 	src/solve/image-map.c src/solve/image-map.h \
@@ -357,4 +362,4 @@ EXTRA_libhr2d_la_DEPENDENCIES = src/libhr2d.map
 else
 libhr2d_la_LDFLAGS += -export-symbols-regex '^hr2d_'
 endif
-EXTRA_DIST += src/LAYERS src/libhr2d.abi src/libhr2d.map
+EXTRA_DIST += src/LAYERS src/base/make-bickley-tables.py src/libhr2d.abi src/libhr2d.map

@@ -17,6 +17,7 @@ SUITES = \
 	tests/faults/check-polls.c \
 	tests/faults/check-faults-accuracy.c \
 	tests/faults/check-scene-progress.c \
+	tests/unit/base/check-bickley.c \
 	tests/unit/base/check-black-body.c \
 	tests/unit/base/check-options.c \
 	tests/unit/base/check-status.c \
@@ -44,6 +45,7 @@ SUITES = \
 	tests/unit/scene/check-bent-walls.c \
 	tests/unit/repair/check-snap.c \
 	tests/unit/scene/check-sunlight.c \
+	tests/unit/scene/check-gas-scenes.c \
 	tests/unit/scene/check-images.c \
 	tests/unit/scene/check-period-weights.c \
 	tests/unit/formats/check-geojson.c \
@@ -79,6 +81,7 @@ SUITES = \
 	tests/unit/field/check-field-errors.c \
 	tests/unit/field/check-field-irradiance.c \
 	tests/unit/field/check-past-ends.c \
+	tests/unit/solve/check-gas.c \
 	tests/unit/solve/check-solve.c \
 	tests/unit/solve/check-background.c \
 	tests/unit/solve/check-sky.c \
@@ -110,6 +113,7 @@ SUITES = \
 	tests/unit/visibility/check-back-visibility.c \
 	tests/unit/visibility/check-beam-cache.c \
 	tests/unit/mesh/check-visible-vertices.c \
+	tests/unit/blocks/check-gas-areas.c \
 	tests/unit/blocks/check-blocks.c \
 	tests/unit/blocks/check-directions.c \
 	tests/unit/blocks/check-moments.c \

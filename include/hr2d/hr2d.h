@@ -105,6 +105,7 @@
 #include <hr2d/daylight.h>
 #include <hr2d/enclosure.h>
 #include <hr2d/field.h>
+#include <hr2d/gas.h>
 #include <hr2d/geometry.h>
 #include <hr2d/hierarchy.h>
 #include <hr2d/linkset.h>

@@ -85,6 +85,7 @@ typedef enum hr2d_effect {
   HR2D_EFFECT_BACKGROUND,      /**< light comes in through the openings of the scene */
   HR2D_EFFECT_CORNER,          /**< patches touch: the kernel is singular there */
   HR2D_EFFECT_PANES,           /**< light passes through panes */
+  HR2D_EFFECT_MEDIUM,          /**< a gas absorbs and emits (gas.h) */
   HR2D_EFFECT_COUNT            /**< the number of effects */
 } hr2d_effect;
 

@@ -228,6 +228,7 @@ hr2d_status hr2d_predict(const hr2d_scene *scene, const hr2d_target *target,
   hr2d_target used;
   *prediction = (hr2d_prediction){0};
   if (!scene->committed) return HR2D_ESTATE;
+  if (hr2di_scene_has_gas(scene)) return HR2D_EUNSUPPORTED;
   if (hr2di_scene_is_unsettled(scene)) return predict_heat(scene, target, prediction);
   hr2d_status status = hr2di_target_init(&used, scene, target, HR2D_DEFAULT_ERROR);
   used.share = NULL; /* each predicts for itself */

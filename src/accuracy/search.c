@@ -142,6 +142,7 @@ hr2d_status hr2di_search_fallback(hr2di_search *s) {
   int out_of_time;
   const double all = s->deadline > 0 ? s->given.seconds : HUGE_VAL;
   const size_t patches = s->scene->patches;
+  if (hr2di_scene_has_gas(s->scene)) return HR2D_OK; /* it has exchange areas without gas */
   if (s->given.max_elements && s->given.max_elements < patches) return HR2D_OK;
   /* An element has B, H, the light from outside and that of a sweep. */
   const double min =

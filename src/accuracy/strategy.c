@@ -97,7 +97,7 @@ double hr2di_strategy_tolerance(const hr2d_scene *scene, double contrast, double
 /* What the background sends is a difference of row sums from 1: where little of it shows, that
    is all rounding. */
 static int is_single(const hr2d_scene *scene, double target) {
-  return !hr2di_external_wants_sky(scene) &&
+  return !hr2di_external_wants_sky(scene) && !hr2di_scene_has_gas(scene) &&
          HR2DI_SINGLE_ROUNDING <= HR2DI_CHOICE_SINGLE * target * min_lost(scene);
 }
 

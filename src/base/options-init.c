@@ -54,6 +54,10 @@ void hr2d_thermal_init(hr2d_thermal *thermal, size_t size) {
   set_defaults(thermal, size);
 }
 
+void hr2d_gas_init(hr2d_gas *gas, size_t size) {
+  set_defaults(gas, size);
+}
+
 void hr2d_patch_init(hr2d_patch *patch) {
   if (!patch) return;
   *patch = (hr2d_patch)HR2D_PATCH_INIT;

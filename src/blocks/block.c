@@ -22,6 +22,10 @@ hr2d_status hr2di_integrator_init(hr2di_integrator *w, const hr2d_hierarchy *hie
                           .watch = watch,
                           .seen.alloc = *alloc};
   hr2di_basis_init(&w->basis, order);
+  if (hr2di_scene_has_gas(scene)) {
+    w->absorption = hr2di_scene_scaled_absorption(scene);
+    w->section = hr2di_scene_section(scene);
+  }
   w->rule = hr2di_alloc(alloc, HR2DI_RULE_POINTS, sizeof *w->rule);
   hr2d_status status = hr2di_integrator_points(w, order + 2, 0);
   if (!status) status = hr2di_moments_init(&w->moments, order, alloc);
@@ -106,6 +110,7 @@ static hr2d_status add_shaded(hr2di_integrator *w, hr2d_pair pair, double *block
   hr2di_line_frame f;
   hr2d_status status = HR2D_OK;
   hr2di_line_frame_init(&f, h, pair);
+  f.has_gas = w->absorption > 0;
   for (size_t k = 0; k < w->seen.count && !status; k++) {
     const hr2di_line_class s = hr2di_line_class_list_at(&w->seen, k);
     status = add_sight(w, &f, &lines, &s, block);
@@ -133,6 +138,12 @@ static hr2d_status find_lines(hr2di_integrator *w, hr2d_pair pair, double area,
   return status;
 }
 
+/* At order 1 a block is the exchange area, which is to have all digits. */
+static int can_be_distant(const hr2di_integrator *w, const hr2d_element *i,
+                          const hr2d_element *j) {
+  return w->order > 1 && w->absorption * fmax(i->length, j->length) <= HR2DI_CHOICE_GAS_DEPTH;
+}
+
 /* hr2di_block() for a pair in order; `given` is the same pair as it was asked for. */
 static hr2d_status integrate(hr2di_integrator *w, hr2d_pair pair, hr2d_pair given, double area,
                              double *block, int *distant) {
@@ -151,7 +162,8 @@ static hr2d_status integrate(hr2di_integrator *w, hr2d_pair pair, hr2d_pair give
   if (view == HR2DI_PARTIAL) return add_shaded(w, pair, block);
   const int whole = facing == HR2DI_FACING_FULL;
   const double m[] = {whole ? hr2di_ellipse_min(s, t) : 0, whole ? hr2di_ellipse_min(t, s) : 0};
-  *distant = m[0] >= HR2DI_ELLIPSE_DISTANT && m[1] >= HR2DI_ELLIPSE_DISTANT;
+  *distant = m[0] >= HR2DI_ELLIPSE_DISTANT && m[1] >= HR2DI_ELLIPSE_DISTANT &&
+             (w->absorption == 0 || can_be_distant(w, i, j));
   if (*distant) {
     hr2di_pair_frame f;
     hr2di_pair_frame_init(&f, h, pair);
@@ -160,6 +172,7 @@ static hr2d_status integrate(hr2di_integrator *w, hr2d_pair pair, hr2d_pair give
   }
   hr2di_line_frame f;
   hr2di_line_frame_init(&f, h, pair);
+  f.has_gas = w->absorption > 0;
   return add_clear(w, &f, block);
 }
 
@@ -172,16 +185,26 @@ static void transpose(double *block, size_t order) {
     }
 }
 
+static void swap_lost(hr2di_integrator *w) {
+  for (size_t l = 0; l < w->order; l++) {
+    const double kept = w->lost[0][l];
+    w->lost[0][l] = w->lost[1][l];
+    w->lost[1][l] = kept;
+  }
+}
+
 hr2d_status hr2di_block(hr2di_integrator *w, hr2d_pair pair, double area, double *block,
                         int *distant) {
   const hr2d_element *element = w->hierarchy->element;
   const hr2d_pair swap = {pair.second, pair.first};
   const int in_order = element[pair.first].patch <= element[pair.second].patch;
   memset(block, 0, w->order * w->order * sizeof *block);
+  if (w->absorption > 0) memset(w->lost, 0, sizeof w->lost);
   hr2di_moments_begin(&w->moments);
   const hr2d_status status = integrate(w, in_order ? pair : swap, pair, area, block, distant);
   if (status) return status;
   hr2di_moments_end(&w->moments, block);
   if (!in_order) transpose(block, w->order);
+  if (!in_order && w->absorption > 0) swap_lost(w);
   return hr2di_watch_status(w->watch);
 }

@@ -1,12 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Blocks: C_lm = ∫∫ G V φ_l(x) φ_m(y) dy dx over a pair of elements, a length; C_00 is their
-   exchange area.  Blocks of distant pairs are as accurate as the order needs, but for C_00; all
-   others are exact to rounding, of doubles or of floats. */
+   exchange area.  With gas G has the factor T(κr), see base/bickley.h.  Blocks of distant pairs
+   are as accurate as the order needs, but for C_00; all others are exact to rounding, of
+   doubles or of floats. */
 #ifndef HR2D_SRC_BLOCKS_BLOCK_H
 #define HR2D_SRC_BLOCKS_BLOCK_H
 
+#include <hr2d/gas.h>
 #include <hr2d/oracle.h>
 
+#include "base/choices.h"
 #include "base/legendre.h"
 #include "base/watch.h"
 #include "blocks/lines.h"
@@ -28,6 +31,10 @@ typedef struct hr2di_pair_frame {
 #define HR2DI_DOUBLE_DIGITS 34
 #define HR2DI_SINGLE_DIGITS 22
 
+/* Points that e^−κr takes more on elements that are as deep as distant ones may be: on the
+   ellipse of 1.8 it grows by e^(0.75 κA), for which half a point per depth is enough. */
+enum { HR2DI_GAS_POINTS = HR2DI_CHOICE_GAS_DEPTH / 2 };
+
 /* Work space of one thread. */
 typedef struct hr2di_integrator {
   const hr2d_hierarchy *hierarchy;
@@ -48,7 +55,11 @@ typedef struct hr2di_integrator {
   size_t vertex_capacity;
   hr2di_trapezoid *trapezoid;
   size_t trapezoid_capacity;
-  uint64_t kernels; /* values of G, or of its integral over the lines of one direction */
+  uint64_t kernels;  /* values of G, or of its integral over the lines of one direction */
+  double absorption; /* κ of the gas per unit of the scene; 0: there is none */
+  hr2d_section section;
+  double lost[2][HR2D_MAX_ORDER]; /* with gas, of the last pair: ∫∫ G V D φ_l(x) dy dx for the
+                                     part D of the light that is absorbed, on i and on j */
 } hr2di_integrator;
 
 /* What patches see is kept in `beam_cache`, unless that is NULL.  Returns HR2D_OK or

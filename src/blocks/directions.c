@@ -11,6 +11,7 @@
 #include <math.h>
 
 #include "blocks/block.h"
+#include "blocks/gas-lines.h"
 
 /* For the constant that the bound leaves out, which few points have no room for. */
 #define MARGIN 0.3
@@ -205,6 +206,25 @@ static int covers(const hr2di_meeting *m) {
   return m->fixed == 3 && m->place[0] == 0 && m->place[1] == 1;
 }
 
+/* As add_directions(), through gas. */
+static void add_gas(hr2di_integrator *w, const hr2di_trapezoid *t, choice chosen,
+                    double *block) {
+  const hr2di_rule *rule = rule_of(w, chosen.points);
+  const double k = chosen.kappa, turn = 0.5 * k * t->turn;
+  for (size_t q = 0; q < rule->points; q++) {
+    const double f = 0.5 - 0.5 * rule->at[q], g = k * (0.5 + 0.5 * rule->at[q]);
+    const double x = f * t->e[0].x + g * t->e[1].x, y = f * t->e[0].y + g * t->e[1].y;
+    const double square = x * x + y * y, length = sqrt(square);
+    const double gap = f * t->gap[0] + g * t->gap[1];
+    hr2di_gas_lines lines = {.weight = turn * rule->weight[q] * gap / (square * length)};
+    for (size_t side = 0; side < 2; side++)
+      set_places(&t->on[side], t->gap, 1, &f, &g, &lines.centre[side], &lines.half[side]);
+    for (size_t vertex = 0; vertex < 2; vertex++)
+      lines.depth[vertex] = hr2di_gas_depth(w, t, vertex, f, g, length);
+    hr2di_gas_add(w, &lines, block);
+  }
+}
+
 static void add_directions(hr2di_integrator *w, const hr2di_trapezoid *t, choice chosen,
                            double *block) {
   const hr2di_rule *rule = rule_of(w, chosen.points);
@@ -248,13 +268,17 @@ static void choose_middle(const outline *o, double m[2]) {
   m[1] = o->ratio * weight / (1 + weight);
 }
 
+static void halve(const hr2di_trapezoid *t, const outline *o, hr2di_trapezoid part[2]) {
+  double m[2];
+  choose_middle(o, m);
+  hr2di_trapezoid_divide(t, m, part);
+}
+
 /* Divides a trapezoid in two if that takes fewer points.  Returns 0 if not. */
 static int divide(const hr2di_trapezoid *t, const outline *o, size_t order, double digits,
                   double points, hr2di_trapezoid part[2]) {
-  double m[2];
   if (points <= 14 + (double)order) return 0;
-  choose_middle(o, m);
-  hr2di_trapezoid_divide(t, m, part);
+  halve(t, o, part);
   if (points > MOST_POINTS) return 1;
   for (size_t k = 0; k < 2; k++) {
     const outline half = outline_of(&part[k]);
@@ -287,11 +311,20 @@ static hr2d_status add_trapezoid(hr2di_integrator *w, const hr2di_trapezoid *who
       count += 2;
       continue;
     }
-    chosen.points = lesser(chosen.points, MOST_POINTS);
-    const uint64_t work = 2 + (uint64_t)chosen.points * (16 + 2 * p * p) / 160;
-    const hr2d_status status = hr2di_watch_work(w->watch, work);
+    const double more = w->absorption > 0 ? hr2di_gas_points(w, &t) : 0;
+    if (more > MOST_POINTS && room) {
+      halve(&t, &o, &stack[count]);
+      count += 2;
+      continue;
+    }
+    chosen.points = lesser(chosen.points + more, MOST_POINTS);
+    const uint64_t lines = (uint64_t)chosen.points * (w->absorption > 0 ? 4 * p : 1);
+    const hr2d_status status = hr2di_watch_work(w->watch, 2 + lines * (16 + 2 * p * p) / 160);
     if (status) return status;
-    add_directions(w, &t, chosen, block);
+    if (w->absorption > 0)
+      add_gas(w, &t, chosen, block);
+    else
+      add_directions(w, &t, chosen, block);
   }
   return HR2D_OK;
 }

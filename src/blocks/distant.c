@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/bickley.h"
 #include "blocks/block.h"
 #include "blocks/line-vector.h"
 #include "geometry/exchange-area.h"
@@ -52,10 +53,11 @@ void hr2di_pair_frame_init(hr2di_pair_frame *f, const hr2d_hierarchy *h, hr2d_pa
 }
 
 /* The points for an element that sees the other one on the ellipse m. */
-static size_t points_for(const hr2di_integrator *w, double m) {
+static size_t points_for(const hr2di_integrator *w, double m, double length) {
   size_t n = w->points;
   while (n > 1 && m >= w->separation[n - 2]) n--;
-  return n;
+  n += (size_t)ceil(w->absorption * length * HR2DI_GAS_POINTS / HR2DI_CHOICE_GAS_DEPTH);
+  return n < HR2DI_RULE_POINTS ? n : HR2DI_RULE_POINTS;
 }
 
 /* φ_0 … at the points of a rule. */
@@ -68,13 +70,58 @@ static const double *table(hr2di_integrator *w, const hr2di_rule *rule) {
   return phi;
 }
 
+/* A point of the rule on i, and the pair seen from there. */
+typedef struct from {
+  const hr2di_pair_frame *f;
+  double x, y; /* from the point to the start of j */
+} from;
+
+/* G/½ without what depends on the point of i alone, at fraction t of j; sets the distance. */
+static double kernel(const from *at, double t, double *distance) {
+  const hr2di_pair_frame *f = at->f;
+  const double rx = at->x + t * f->along_j.x, ry = at->y + t * f->along_j.y;
+  const double square = rx * rx + ry * ry;
+  *distance = sqrt(square);
+  return hr2di_block_mix(f->above_i, t) / (square * *distance);
+}
+
+/* The part of one point of i with gas between, as the loops below; adds to work->lost. */
+static void add_through_gas(hr2di_integrator *w, const from *at, const hr2di_rule *on_j,
+                            const double *phi_i, const double *phi_j, double outer,
+                            double *block) {
+  const size_t p = w->order;
+  double moment[HR2D_MAX_ORDER] = {0}, absorbed = 0;
+  for (size_t q = 0; q < on_j->points; q++) {
+    double distance;
+    const double g = on_j->weight[q] * kernel(at, 0.5 + 0.5 * on_j->at[q], &distance);
+    const hr2di_passage pass = hr2di_passage_at(w->section, w->absorption * distance);
+    const double *phi = phi_j + q * p;
+    for (size_t l = 0; l < p; l++) moment[l] += g * pass.arrives * phi[l];
+    for (size_t l = 0; l < p; l++) w->lost[1][l] += outer * (g * pass.absorbed) * phi[l];
+    absorbed += g * pass.absorbed;
+  }
+  for (size_t l = 0; l < p; l++) w->lost[0][l] += outer * absorbed * phi_i[l];
+  for (size_t l = 0; l < p; l++)
+    for (size_t n = 0; n < p; n++) block[l * p + n] += outer * phi_i[l] * moment[n];
+}
+
+/* What arrives and what is absorbed make the exchange area, which is known exactly: so thin
+   gas keeps the digits of both. */
+static void scale_to(hr2di_integrator *w, double area, double *block) {
+  const size_t p = w->order;
+  const double factor = area / (block[0] + w->lost[0][0]);
+  for (size_t k = 0; k < p * p; k++) block[k] *= factor;
+  for (size_t l = 0; l < p; l++) w->lost[0][l] *= factor;
+  for (size_t l = 0; l < p; l++) w->lost[1][l] *= factor;
+}
+
 /* One tensor rule is enough, because G is smooth on both elements.  The first coefficient,
    which is the exchange area, is known without it. */
 void hr2di_block_distant(hr2di_integrator *w, const hr2di_pair_frame *f, const double m[2],
                          double *block) {
   const size_t p = w->order;
-  const hr2di_rule *on_i = hr2di_integrator_rule(w, points_for(w, m[0]));
-  const hr2di_rule *on_j = hr2di_integrator_rule(w, points_for(w, m[1]));
+  const hr2di_rule *on_i = hr2di_integrator_rule(w, points_for(w, m[0], f->length_i));
+  const hr2di_rule *on_j = hr2di_integrator_rule(w, points_for(w, m[1], f->length_j));
   const double *phi_i = table(w, on_i), *phi_j = table(w, on_j);
   const double scale = 0.5 * f->length_i * f->length_j;
   double moment[HR2D_MAX_ORDER];
@@ -84,6 +131,11 @@ void hr2di_block_distant(hr2di_integrator *w, const hr2di_pair_frame *f, const d
     const double s = 0.5 + 0.5 * on_i->at[k];
     const double x = f->separation.x - s * f->along_i.x, y = f->separation.y - s * f->along_i.y;
     const double outer = scale * on_i->weight[k] * hr2di_block_mix(f->above_j, s);
+    if (w->absorption > 0) {
+      const from at = {f, x, y};
+      add_through_gas(w, &at, on_j, phi_i + k * p, phi_j, outer, block);
+      continue;
+    }
     memset(moment, 0, p * sizeof *moment);
     for (size_t q = 0; q < on_j->points; q++) {
       const double t = 0.5 + 0.5 * on_j->at[q];
@@ -98,5 +150,8 @@ void hr2di_block_distant(hr2di_integrator *w, const hr2di_pair_frame *f, const d
     for (size_t l = 0; l < p; l++)
       for (size_t n = 0; n < p; n++) block[l * p + n] += outer * phi[l] * moment[n];
   }
-  block[0] = f->area;
+  if (w->absorption > 0)
+    scale_to(w, f->area, block);
+  else
+    block[0] = f->area;
 }

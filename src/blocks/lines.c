@@ -93,6 +93,14 @@ static double area_of(const hr2di_vertex *low, const hr2di_vertex *high, const r
   return not_negative(0.5 * (z.x * x + z.y * y));
 }
 
+/* How far a vertex is in front of the lines of i and of j, but for |u| and |v|. */
+static void set_above(const hr2di_line_frame *f, const hr2di_vertex *z, double above[2]) {
+  const hr2di_vector from_a = hr2di_vector_minus(&z->at, &f->a);
+  const hr2di_vector from_c = hr2di_vector_minus(&z->at, &f->c);
+  above[0] = z->on & HR2DI_ON_I ? 0 : not_negative(hr2di_vector_cross(&f->u, &from_a));
+  above[1] = z->on & HR2DI_ON_J ? 0 : not_negative(hr2di_vector_cross(&f->v, &from_c));
+}
+
 /* Makes the trapezoid between two rays; returns 0 if they do not differ, or not that way. */
 static int make_trapezoid(const hr2di_line_frame *f, const hr2di_vertex *low,
                           const hr2di_vertex *high, const ray *from, const ray *to,
@@ -104,6 +112,10 @@ static int make_trapezoid(const hr2di_line_frame *f, const hr2di_vertex *low,
   set_end(f, low, high, from, 0, t);
   set_end(f, low, high, to, 1, t);
   t->area = area_of(low, high, from, to, t);
+  if (f->has_gas) {
+    set_above(f, low, t->above[0]);
+    set_above(f, high, t->above[1]);
+  }
   return 1;
 }
 

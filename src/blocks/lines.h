@@ -22,6 +22,7 @@ typedef struct hr2di_line_frame {
   hr2d_segment i, j;
   hr2d_point origin;
   hr2di_vector a, b, c, d, u, v;
+  int has_gas; /* trapezoids get `above`; not set at first */
 } hr2di_line_frame;
 
 void hr2di_line_frame_init(hr2di_line_frame *frame, const hr2d_hierarchy *hierarchy,
@@ -59,6 +60,7 @@ typedef struct hr2di_trapezoid {
   double gap[2];       /* (high − low) × e */
   hr2di_meeting on[2]; /* on i, from low to high, and on j, from high to low */
   double area;         /* half the measure of the lines, rounded */
+  double above[2][2];  /* with gas: u × (z − a) and v × (z − c), of z = low and of high */
 } hr2di_trapezoid;
 
 /* The number of trapezoids of these chains is at most that of their vertices. */

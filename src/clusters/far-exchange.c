@@ -32,7 +32,7 @@ hr2d_status hr2d_clusters_create(const hr2d_scene *scene, const hr2d_clusters_op
   if (!scene->committed) return HR2D_ESTATE;
   hr2d_status status = take_options(&o, options);
   if (status) return status;
-  if (scene->symmetry.motion) return HR2D_EUNSUPPORTED;
+  if (scene->symmetry.motion || hr2di_scene_has_gas(scene)) return HR2D_EUNSUPPORTED;
   hr2d_clusters *c = hr2di_alloc_zero(&scene->alloc, 1, sizeof *c);
   if (!c) return HR2D_ENOMEM;
   c->scene = scene;

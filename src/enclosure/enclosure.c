@@ -296,6 +296,7 @@ hr2d_status hr2d_enclose(const hr2d_scene *scene, const hr2d_enclose_options *op
   if (account) *account = (hr2d_enclosure_account){.gap = INFINITY};
   if (!scene || !enclosure) return HR2D_EINVAL;
   if (!scene->committed) return HR2D_ESTATE;
+  if (hr2di_scene_has_gas(scene)) return HR2D_EUNSUPPORTED;
   const double start = hr2di_clock_now();
   encloser all = {.e = {.scene = scene, .alloc = scene->alloc, .bands = scene->bands},
                   .account = {.gap = INFINITY}};

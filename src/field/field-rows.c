@@ -297,6 +297,7 @@ hr2d_status hr2d_field_rows_visit(const hr2d_scene *scene, const hr2d_point *at,
                                   void *ctx) {
   if (!scene || !show || (count && !at)) return HR2D_EINVAL;
   if (!scene->committed) return HR2D_ESTATE;
+  if (hr2di_scene_has_gas(scene)) return HR2D_EUNSUPPORTED;
   hr2d_field_options o = HR2D_FIELD_OPTIONS_INIT;
   hr2d_status status = hr2di_sized_copy(&o, sizeof o, options);
   if (status || !hr2di_field_finite(at, count) || !are_normals(normal, count))

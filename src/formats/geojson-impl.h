@@ -12,6 +12,7 @@
 
 #include "base/message.h"
 #include "base/watch.h"
+#include "scene/gas.h"
 #include "scene/reading-notes.h"
 #include "scene/sky.h"
 #include "scene/symmetry.h"
@@ -52,7 +53,8 @@ typedef struct hr2di_geojson {
   /* What the scene gets once nothing else can fail; NULL without a sun. */
   hr2d_sun *sun;
   size_t suns;
-  hr2di_sky sky; /* the same; without pieces there is none */
+  hr2di_sky sky;  /* the same; without pieces there is none */
+  hr2di_gas *gas; /* the same; NULL: the file has no medium */
   hr2d_segment mirror[HR2DI_MIRRORS];
   size_t mirrors;
   hr2d_point period;
@@ -95,6 +97,10 @@ hr2d_status hr2di_geojson_spectrum(hr2di_geojson *reader, const json_t *members,
 /* Read the suns and the sky from the member "hr2d", valid ones. */
 hr2d_status hr2di_geojson_sky(hr2di_geojson *reader, const json_t *members);
 hr2d_status hr2di_geojson_sun(hr2di_geojson *reader, const json_t *members);
+
+/* Reads the gas from the member "hr2d", and gives it to the scene, which cannot fail. */
+hr2d_status hr2di_geojson_medium(hr2di_geojson *reader, const json_t *members);
+void hr2di_geojson_give_medium(hr2di_geojson *reader);
 
 /* Reads the period from the member "hr2d". */
 hr2d_status hr2di_geojson_period(hr2di_geojson *reader, const json_t *members);

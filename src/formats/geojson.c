@@ -12,23 +12,6 @@
 #include "formats/scene-file.h"
 #include "scene/scene-impl.h"
 
-/* This version has no absorbing medium, but 0 is allowed: it states that the scene has none. */
-static hr2d_status read_medium(hr2di_geojson *reader, const json_t *members) {
-  const json_t *json = hr2di_geojson_member(members, "medium");
-  size_t count;
-  if (json && !json_is_number(json))
-    return hr2di_message_fail(reader->message, HR2D_ESYNTAX,
-                              "hr2d: medium: must be a number, not %s",
-                              hr2di_geojson_kind(json));
-  hr2d_status status =
-      hr2di_geojson_values(reader, "hr2d", "medium", json, DBL_MAX, &reader->emission, &count);
-  if (!status && count && reader->emission.value[0] > 0)
-    return hr2di_message_fail(
-        reader->message, HR2D_EUNSUPPORTED,
-        "hr2d: medium: an absorbing medium is not supported by this version");
-  return status;
-}
-
 static hr2d_status read_scene_effects(hr2di_geojson *reader, const json_t *root,
                                       size_t *background_bands) {
   const json_t *members = hr2di_geojson_member(root, "hr2d");
@@ -44,7 +27,7 @@ static hr2d_status read_scene_effects(hr2di_geojson *reader, const json_t *root,
   if (!status) status = hr2di_geojson_sun(reader, members);
   if (!status) status = hr2di_geojson_sky(reader, members);
   if (!status) status = hr2di_geojson_period(reader, members);
-  return status ? status : read_medium(reader, members);
+  return status ? status : hr2di_geojson_medium(reader, members);
 }
 
 static int is_feature(const json_t *root) {
@@ -99,6 +82,7 @@ static hr2d_status give_scene_effects(hr2di_geojson *reader, size_t background_b
     reader->sky = (hr2di_sky){0};
   }
   hr2di_geojson_give_symmetry(reader);
+  hr2di_geojson_give_medium(reader);
   *hr2di_scene_notes(reader->scene) = reader->notes;
   return HR2D_OK;
 }
@@ -131,6 +115,7 @@ hr2d_status hr2di_geojson_read(hr2d_scene *scene, const char *text, size_t size,
   json_decref(root);
   hr2di_alloc_free(reader.alloc, reader.background.value);
   hr2di_alloc_free(reader.alloc, reader.sun);
+  hr2di_alloc_free(reader.alloc, reader.gas);
   hr2di_sky_clear(&reader.sky, reader.alloc);
   hr2di_alloc_free(reader.alloc, reader.emission.value);
   hr2di_alloc_free(reader.alloc, reader.reflectance.value);

@@ -47,8 +47,9 @@ static int is_tiny(const hr2d_hierarchy *h, hr2d_pair pair) {
 
 /* G V is not negative, so that |C_lm| ≤ φ_l(1) φ_m(1) C_00.  A block beyond that comes from
    elements that the rules cannot tell apart in doubles, as a distance of 1e-17 of a length: it
-   keeps the exchange area of the link alone. */
-static void check_bound(const hr2di_basis *basis, double area, double *block) {
+   keeps the exchange area of the link alone; through gas that of the block, unless this is no
+   number at all. */
+static void check_bound(const hr2di_basis *basis, double area, int has_gas, double *block) {
   const size_t order = basis->order;
   double end[HR2D_MAX_ORDER];
   int holds = isfinite(block[0]);
@@ -57,7 +58,7 @@ static void check_bound(const hr2di_basis *basis, double area, double *block) {
     for (size_t m = 0; m < order; m++)
       holds &= fabs(block[l * order + m]) <= 1.5 * block[0] * end[l] * end[m];
   if (holds) return;
-  block[0] = area;
+  if (!has_gas || !(block[0] >= 0 && block[0] <= area)) block[0] = area;
   for (size_t k = 1; k < order * order; k++) block[k] = 0;
 }
 
@@ -88,6 +89,10 @@ static size_t rest_bytes(const hr2di_link_blocks *b) {
   return b->order * b->order * hr2di_number_size(b->single) - leading_bytes(b);
 }
 
+static size_t lost_bytes(const hr2di_link_blocks *b) {
+  return b->has_gas ? 2 * b->lost_order * sizeof *b->lost : 0;
+}
+
 /* Writes block k to its two parts. */
 static void part_block(const double *block, double weight, hr2di_link_blocks *b, uint64_t k) {
   void *value = (char *)b->value + k * leading_bytes(b);
@@ -104,6 +109,11 @@ static void part_block(const double *block, double weight, hr2di_link_blocks *b,
   if (b->single) *(float *)value = 1;
 }
 
+static void put_lost(const hr2di_integrator *work, double weight, double *lost) {
+  for (size_t side = 0; side < 2; side++)
+    put_doubles(lost + side * work->order, work->lost[side], work->order, weight);
+}
+
 static hr2d_status make_one(const maker *m, hr2di_integrator *work, uint64_t k) {
   const hr2d_link *link = hr2di_store_at(&m->links->store, k);
   double block[HR2D_MAX_ORDER * HR2D_MAX_ORDER];
@@ -112,10 +122,12 @@ static hr2d_status make_one(const maker *m, hr2di_integrator *work, uint64_t k) 
   const double area = link->exchange_area / weight;
   const hr2d_status status = hr2di_block(work, link->pair, area, block, &distant);
   if (status) return status;
-  if (is_tiny(m->links->hierarchy, link->pair)) block[0] = area;
-  check_bound(&work->basis, area, block);
+  const int has_gas = work->absorption > 0;
+  if (is_tiny(m->links->hierarchy, link->pair) && !has_gas) block[0] = area;
+  check_bound(&work->basis, area, has_gas, block);
   part_block(block, weight, m->blocks, k);
   m->blocks->distant[k] = (unsigned char)distant;
+  if (has_gas) put_lost(work, weight, m->blocks->lost + k * 2 * m->blocks->lost_order);
   return HR2D_OK;
 }
 
@@ -196,7 +208,7 @@ static hr2d_status run(hr2d_linkset *links, hr2di_link_blocks *made, uint64_t kn
 }
 
 uint64_t hr2di_link_blocks_bytes(const hr2di_link_blocks *b) {
-  return b->links * (leading_bytes(b) + rest_bytes(b) + sizeof *b->distant);
+  return b->links * (leading_bytes(b) + rest_bytes(b) + lost_bytes(b) + sizeof *b->distant);
 }
 
 /* Gives an array room for so many links; on failure it stays as it is. */
@@ -210,12 +222,15 @@ static int resize_one(void **array, uint64_t links, size_t size, const hr2d_allo
 
 static hr2d_status resize(hr2di_link_blocks *b, uint64_t links, const hr2d_allocator *alloc) {
   const size_t rest = rest_bytes(b);
-  void *distant = b->distant;
+  const size_t lost = lost_bytes(b);
+  void *distant = b->distant, *absorbed = b->lost;
   b->links = links;
   int has_room = resize_one(&b->value, links, leading_bytes(b), alloc);
   if (has_room && rest > 0) has_room = resize_one(&b->rest, links, rest, alloc);
   if (has_room) has_room = resize_one(&distant, links, sizeof *b->distant, alloc);
+  if (has_room && lost > 0) has_room = resize_one(&absorbed, links, lost, alloc);
   b->distant = distant;
+  b->lost = absorbed;
   return has_room ? HR2D_OK : HR2D_ENOMEM;
 }
 
@@ -247,6 +262,8 @@ hr2d_status hr2di_link_blocks_init(hr2d_linkset *links, const hr2di_blocks_wante
   hr2di_link_blocks made = *known;
   if (made.links == 0) made.lead = lead_of(links, wanted->order);
   made.order = wanted->order;
+  if (made.links == 0) made.lost_order = wanted->order;
+  made.has_gas = hr2di_scene_has_gas(links->hierarchy->scene);
   made.single = wanted->single;
   made.kernels = 0;
   *known = (hr2di_link_blocks){0};
@@ -269,6 +286,7 @@ void hr2di_link_blocks_move(hr2di_link_blocks *b, uint64_t to, uint64_t from, si
   if (from == to) return;
   move(b->value, leading_bytes(b), to, from, count);
   if (b->rest) move(b->rest, rest_bytes(b), to, from, count);
+  if (b->lost) move(b->lost, lost_bytes(b), to, from, count);
   move(b->distant, sizeof *b->distant, to, from, count);
 }
 
@@ -282,5 +300,6 @@ void hr2di_link_blocks_clear(hr2di_link_blocks *blocks, const hr2d_allocator *al
   hr2di_alloc_free(alloc, blocks->value);
   hr2di_alloc_free(alloc, blocks->rest);
   hr2di_alloc_free(alloc, blocks->distant);
+  hr2di_alloc_free(alloc, blocks->lost);
   *blocks = (hr2di_link_blocks){0};
 }

@@ -22,7 +22,10 @@ typedef struct hr2di_link_blocks {
   void *value;    /* links × lead × lead numbers */
   void *rest; /* links × (order² − lead²) numbers, row by row what `value` lacks of a block */
   unsigned char *distant; /* per link: integrated by one rule, as accurate as the order needs */
-  uint64_t kernels;       /* evaluations of G it took */
+  int has_gas;
+  size_t lost_order; /* of these: */
+  double *lost;      /* with gas, links × 2 × lost_order: hr2di_integrator::lost; else NULL */
+  uint64_t kernels;  /* evaluations of G it took */
 } hr2di_link_blocks;
 
 /* The bytes of all blocks. */

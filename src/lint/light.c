@@ -11,6 +11,7 @@ static int absorbs(const hr2d_scene *scene, size_t band) {
 static hr2d_status warn_of_no_absorber(const hr2di_lint *lint) {
   const hr2d_scene *scene = lint->scene;
   size_t band = 0;
+  if (hr2di_scene_has_gas(scene)) return HR2D_OK; /* it absorbs */
   while (band < scene->bands && absorbs(scene, band)) band++;
   if (band == scene->bands) return HR2D_OK;
   return hr2di_lint_warn(lint, (hr2d_warning){.code = HR2D_WARNING_NO_ABSORBER},

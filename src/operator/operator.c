@@ -75,7 +75,7 @@ static hr2d_status keep(hr2d_operator *op, hr2di_graded *best, const hr2d_accoun
 
 static hr2d_status refuse(const hr2d_scene *scene, const hr2d_target *target) {
   if (!scene->committed) return HR2D_ESTATE;
-  if (hr2di_scene_is_unsettled(scene)) return HR2D_EUNSUPPORTED;
+  if (hr2di_scene_is_unsettled(scene) || hr2di_scene_has_gas(scene)) return HR2D_EUNSUPPORTED;
   if (target->share && target->share->count > 1) return HR2D_EUNSUPPORTED;
   return HR2D_OK;
 }
@@ -118,8 +118,8 @@ hr2d_status hr2d_operator_create(const hr2d_scene *scene, const hr2d_target *tar
   if (reached == HR2D_EUNSUPPORTED)
     hr2di_message_copy(
         found.reason, sizeof found.reason,
-        "an operator finds no temperatures of given fluxes in several bands, and "
-        "is not shared");
+        "an operator finds no temperatures of given fluxes in several bands, does not go "
+        "through gas, and is not shared");
   if (account) *account = found;
   if (status || !made->kept->links)
     hr2d_operator_destroy(made);

@@ -31,6 +31,13 @@ static void set_defaults(hr2d_refine_options *o) {
   o->threads = (unsigned)hr2di_team_threads(o->threads);
 }
 
+/* Whether an oracle estimates what the kernel without gas changes. */
+static int knows_no_gas(const hr2d_oracle *oracle) {
+  return oracle->estimate == hr2d_oracle_l1()->estimate ||
+         oracle->estimate == hr2d_oracle_l1_grid()->estimate ||
+         oracle->estimate == hr2d_oracle_bounds()->estimate;
+}
+
 hr2d_status hr2di_projector_check_options(hr2d_linkset *links, const hr2d_refine_options *given,
                                           hr2d_refine_options *options) {
   hr2di_message *message = &links->message;
@@ -61,6 +68,12 @@ hr2d_status hr2di_projector_check_options(hr2d_linkset *links, const hr2d_refine
   if (links->share && links->share != options->share)
     return hr2di_message_fail(message, HR2D_EINVAL,
                               "the links are those of a share, and are refined further by it");
+  if (options->share && hr2di_gas_refuses(links->hierarchy->scene, "shares do not go", message))
+    return HR2D_EUNSUPPORTED;
+  if (knows_no_gas(&links->oracle) &&
+      hr2di_gas_refuses(links->hierarchy->scene,
+                        "the oracles l1, l1-grid and bounds estimate no errors", message))
+    return HR2D_EUNSUPPORTED;
   if (options->brightness && options->brightness->hierarchy != links->hierarchy)
     return hr2di_message_fail(message, HR2D_EINVAL, "the brightness is from another hierarchy");
   return HR2D_OK;

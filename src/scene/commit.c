@@ -18,6 +18,7 @@ static hr2d_status check_all_outside(hr2d_scene *scene, hr2di_watch *watch) {
   (void)watch;
   hr2d_status status = check_outside(scene, "background", scene->background_bands);
   if (!status) status = check_outside(scene, "sky", scene->sky.pieces ? scene->sky.bands : 0);
+  if (!status) status = check_outside(scene, "gas", hr2di_scene_gas_bands(scene));
   return status ? status : check_outside(scene, "sun", scene->sun_bands);
 }
 
@@ -85,6 +86,7 @@ static hr2d_status commit(hr2d_scene *scene, unsigned copies, hr2di_watch *watch
                                                               check_all_outside,
                                                               hr2di_scene_check_thermal,
                                                               hr2di_scene_scale,
+                                                              hr2di_scene_check_gas,
                                                               hr2di_scene_check_overlaps,
                                                               hr2di_scene_match_panes,
                                                               hr2di_scene_make_walls,

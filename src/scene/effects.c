@@ -15,7 +15,7 @@ static const char *const effect_name[HR2D_EFFECT_COUNT] = {
     [HR2D_EFFECT_EMISSION] = "emission",   [HR2D_EFFECT_BANDS] = "bands",
     [HR2D_EFFECT_TWO_SIDED] = "two-sided", [HR2D_EFFECT_FACING] = "facing",
     [HR2D_EFFECT_CORNER] = "corner",       [HR2D_EFFECT_BACKGROUND] = "background",
-    [HR2D_EFFECT_PANES] = "panes",
+    [HR2D_EFFECT_PANES] = "panes",         [HR2D_EFFECT_MEDIUM] = "medium",
 };
 
 const char *hr2d_effect_name(hr2d_effect effect) {
@@ -103,6 +103,18 @@ static void analyse_background(hr2d_scene *scene) {
       set(scene, HR2D_EFFECT_BACKGROUND, 1, "a piece of the sky sends %g", scene->sky.value[k]);
   if (scene->effect[HR2D_EFFECT_BACKGROUND].on && !scene->effect[HR2D_EFFECT_EMISSION].on)
     set(scene, HR2D_EFFECT_EMISSION, 1, "the surroundings send light in");
+}
+
+/* A gas that emits lights all patches. */
+static void analyse_medium(hr2d_scene *scene) {
+  if (!hr2di_scene_has_gas(scene)) {
+    set(scene, HR2D_EFFECT_MEDIUM, 0, "no gas absorbs");
+    return;
+  }
+  set(scene, HR2D_EFFECT_MEDIUM, 1, "the gas absorbs %g per length",
+      hr2d_scene_absorption(scene, 0, 0));
+  if (hr2di_scene_gas_emits(scene) && !scene->effect[HR2D_EFFECT_EMISSION].on)
+    set(scene, HR2D_EFFECT_EMISSION, 1, "the gas emits");
 }
 
 static int is_earlier(const hr2di_first_pair *than, size_t i, size_t j) {
@@ -215,6 +227,7 @@ hr2d_status hr2di_scene_analyse_effects(hr2d_scene *scene, hr2di_watch *watch) {
                                        scene->patches, sizeof *scene->patch, watch);
   if (!status) status = analyse_materials(scene, watch);
   analyse_background(scene);
+  analyse_medium(scene);
   if (!status) status = analyse_pairs(scene, &hull, watch);
   if (!status) status = analyse_occlusion(scene, &hull, watch);
   hr2di_hull_clear(&hull);

@@ -42,11 +42,11 @@ static int emits(const hr2d_scene *scene, size_t patch) {
   return 0;
 }
 
-/* Whether no search is needed: every patch emits, light from the background may come to any
-   patch, or the effect of emission is forced. */
+/* Whether no search is needed: every patch emits, light from the background or the gas may come
+   to any patch, or the effect of emission is forced. */
 static int all_lit(const hr2d_scene *scene) {
   if (scene->effect[HR2D_EFFECT_EMISSION].forced ||
-      scene->effect[HR2D_EFFECT_BACKGROUND].called_for)
+      scene->effect[HR2D_EFFECT_BACKGROUND].called_for || hr2di_scene_gas_emits(scene))
     return 1;
   size_t k = 0;
   while (k < scene->patches && emits(scene, k)) k++;

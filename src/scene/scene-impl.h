@@ -10,6 +10,7 @@
 #include "base/message.h"
 #include "base/watch.h"
 #include "occlusion/walls.h"
+#include "scene/gas.h"
 #include "scene/patch-runs.h"
 #include "scene/plane.h"
 #include "scene/reading-notes.h"
@@ -61,6 +62,7 @@ struct hr2d_scene {
   double *wavelength; /* that divide the spectrum into bands; NULL for none */
   size_t wavelengths;
   hr2di_symmetry symmetry;
+  hr2di_gas *gas; /* NULL for none */
   hr2di_notes notes;
   int exponent;      /* the unit is 2^exponent */
   hr2di_walls walls; /* the occluders; made by commit, as all that follows */

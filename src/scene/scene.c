@@ -59,6 +59,7 @@ void hr2d_scene_destroy(hr2d_scene *scene) {
   hr2di_alloc_free(&scene->alloc, scene->sun);
   hr2di_sky_clear(&scene->sky, &scene->alloc);
   hr2di_alloc_free(&scene->alloc, scene->wavelength);
+  hr2di_alloc_free(&scene->alloc, scene->gas);
   hr2di_scene_clear_commit(scene);
   const hr2d_allocator alloc = scene->alloc;
   hr2di_alloc_free(&alloc, scene);

@@ -199,7 +199,9 @@ static void close_rows(rows *r, hr2di_transport *t, double *closure) {
   t->all_closed = !memchr(r->closed, 0, t->hierarchy->scene->patches);
   if (!t->all_closed) hr2di_transport_apply_part(t, HR2DI_DISTANT_LINKS, r->scratch, r->row);
   if (t->failed) return;
-  if (t->links->share)
+  if (t->gas)
+    memcpy(r->exact, r->row, t->leaves * t->order * sizeof *r->exact); /* no part of it */
+  else if (t->links->share)
     t->failed = add_shares(r, t);
   else
     add_all_links(r);
@@ -210,7 +212,8 @@ static void close_rows(rows *r, hr2di_transport *t, double *closure) {
     const int closed = r->closed[t->hierarchy->element[t->leaf[k]].patch];
     const double *row = (closed ? r->all : r->row) + k * t->order;
     double *missing = r->exact + k * t->order;
-    if (closed) missing[0] = 1;
+    for (size_t l = 0; l < t->order && closed; l++)
+      missing[l] = (l == 0) - (t->gas ? t->gas[k * t->order + l] : 0);
     for (size_t l = 0; l < t->order; l++) missing[l] -= row[l];
     if (!closed) clear_noise(r, row, missing);
     multiply(r, missing, closure + k * t->order * t->order);

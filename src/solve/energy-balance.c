@@ -29,9 +29,13 @@ static double absorptance_of(const hr2di_transport *t, size_t leaf, size_t band)
   return hr2di_scene_absorptance(t->scene, leaf_of(t, leaf)->patch, band);
 }
 
-/* 1 − K1, in one band. */
+/* 1 − K1, in one band; with gas that is m, which is known better. */
 static hr2d_status set_missing(hr2di_balance *b, hr2di_transport *t) {
   const size_t field = t->leaves * t->order, bands = t->bands;
+  if (t->gas) {
+    memcpy(b->missing, t->gas, field * sizeof *b->missing);
+    return HR2D_OK;
+  }
   double *unit = hr2di_alloc_zero(&t->alloc, 2 * field, sizeof *unit);
   if (!unit) return HR2D_ENOMEM;
   double *const row = unit + field;
@@ -67,7 +71,8 @@ static hr2d_status number(hr2di_balance *b, const hr2di_transport *t, hr2di_comp
     if (mine->number == 0)
       mine->number = missing <= LITTLE * length ? (uint32_t)++b->count : HR2DI_OPEN;
     b->component[k] = mine->number == HR2DI_OPEN ? HR2DI_OPEN : mine->number - 1;
-    if (hr2di_balance_holds(b, k) && missing > HR2DI_DEFECT_CLOSED * length) continue;
+    if (hr2di_balance_holds(b, k) && (t->gas || missing > HR2DI_DEFECT_CLOSED * length))
+      continue;
     for (size_t l = 0; l < t->order; l++) b->missing[k * t->order + l] = 0;
   }
   return status;
@@ -235,6 +240,7 @@ double hr2di_balance_doubt(const hr2di_balance *b, const hr2di_transport *t) {
   const size_t bands = t->bands;
   const double rounding = t->blocks.single ? HR2DI_SINGLE_ROUNDING : DBL_EPSILON;
   double max = 0;
+  if (t->gas) return rounding;
   for (size_t k = 0; k < b->count * bands; k++)
     if (b->escape[k / bands] > 0 && b->level[k] != 0)
       max = fmax(max, rounding * b->length[k / bands] / b->loss[k]);

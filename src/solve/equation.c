@@ -18,6 +18,7 @@
 #include "solve/background.h"
 #include "solve/closure.h"
 #include "solve/external-irradiance.h"
+#include "solve/gas-rows.h"
 #include "solve/row-sums.h"
 
 /* Where nothing reflects, closure has nothing to correct. */
@@ -46,6 +47,9 @@ static hr2d_status integrate_rows_order_p(hr2di_equation *s, int closure, int ba
 static hr2d_status integrate_rows(hr2di_equation *s) {
   const int closure = s->options.closure != HR2D_CLOSURE_OFF && reflects(s->transport.scene);
   const int background = hr2di_external_wants_sky(s->links->hierarchy->scene);
+  if (hr2di_scene_has_gas(s->links->hierarchy->scene))
+    return hr2di_gas_rows_set(&s->transport, s->options.closure != HR2D_CLOSURE_OFF,
+                              &s->links->message);
   if (!closure && !background) return HR2D_OK;
   if (s->transport.order > 1) return integrate_rows_order_p(s, closure, background);
   hr2di_row_sums rows;
@@ -66,7 +70,9 @@ static hr2d_status integrate_blocks(hr2di_equation *s, const hr2di_equation_how 
       .single = how->single,
       .beam_cache = how->beam_cache,
       .threads = s->options.threads};
-  if (wanted.order == 1 || hr2di_link_blocks_made(links, &wanted)) return HR2D_OK;
+  if ((wanted.order == 1 && !hr2di_scene_has_gas(links->hierarchy->scene)) ||
+      hr2di_link_blocks_made(links, &wanted))
+    return HR2D_OK;
   const double start = hr2di_clock_now();
   const hr2d_status status = hr2di_link_blocks_init(links, &wanted, &s->watch);
   s->kernels = links->blocks.kernels;
@@ -80,6 +86,7 @@ static void set_exponents(hr2di_equation *s) {
   const hr2d_scene *scene = s->transport.scene;
   for (size_t b = 0; b < scene->bands; b++) {
     double max = fmax(hr2di_sky_max(scene, b), hr2d_scene_sun(scene, b).irradiance);
+    max = fmax(max, hr2di_scene_gas_emission(scene, b));
     for (size_t k = 0; k < scene->patches; k++)
       max = fmax(max, fabs(hr2d_scene_emission(scene, k, b)));
     s->exponent[b] = max > 0 ? ilogb(max) : 0;
@@ -140,13 +147,17 @@ static hr2d_status set_source(hr2di_equation *s) {
 static hr2d_status set_outside(hr2di_equation *s) {
   const hr2di_transport *t = &s->transport;
   const hr2d_scene *scene = t->hierarchy->scene;
-  if (!t->sky && !hr2di_scene_has_sun(scene) && !hr2di_external_has_pieces(scene)) {
+  const int has_gas = t->gas && hr2di_scene_gas_emits(scene);
+  if (!t->sky && !has_gas && !hr2di_scene_has_sun(scene) && !hr2di_external_has_pieces(scene)) {
     hr2di_alloc_free(&s->links->alloc, s->outside);
     s->outside = NULL;
     return HR2D_OK;
   }
   if (!s->outside) s->outside = hr2di_alloc(&s->links->alloc, s->field, sizeof *s->outside);
-  return s->outside ? hr2di_external_set(t, s->light, s->exponent, s->outside) : HR2D_ENOMEM;
+  if (!s->outside) return HR2D_ENOMEM;
+  const hr2d_status status = hr2di_external_set(t, s->light, s->exponent, s->outside);
+  if (has_gas) hr2di_gas_rows_add(t, s->exponent, s->outside);
+  return status;
 }
 
 hr2d_status hr2di_equation_set_light(hr2di_equation *s) {
@@ -185,7 +196,8 @@ hr2d_status hr2di_equation_init(hr2di_equation *s, hr2d_linkset *links, const hr
   if (!status) status = integrate_rows(s);
   if (!status && t->closure) status = hr2di_closure_set_mean(t);
   hr2di_transport_set_bands(t, links->hierarchy->scene->bands);
-  if (!status && t->closure && !links->directed) status = hr2di_balance_init(&s->balance, t);
+  if (!status && t->closure && reflects(scene) && !links->directed)
+    status = hr2di_balance_init(&s->balance, t);
   hr2di_alloc_free(&t->alloc, t->rows);
   t->rows = NULL;
   if (!status) status = hr2di_watch_work(&s->watch, t->leaves * t->width / 4);

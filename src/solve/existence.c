@@ -140,6 +140,7 @@ static hr2d_status sum_exchange(const hr2d_linkset *links, exchange *e, hr2di_wa
 hr2d_status hr2di_existence_check(hr2d_linkset *links, const hr2d_scene *scene,
                                   hr2di_watch *watch) {
   const int heat = scene->found != NULL;
+  if (hr2di_scene_has_gas(scene)) return HR2D_OK; /* it absorbs everywhere */
   if (!heat && !some_patch_absorbs_nothing(scene)) return HR2D_OK;
   const hr2d_allocator *alloc = &links->alloc;
   exchange e = {.defect = hr2di_alloc(alloc, scene->patches, sizeof *e.defect),

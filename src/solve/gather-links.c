@@ -199,7 +199,7 @@ static void add_each(const hr2di_link_run *run, size_t order, size_t bands, cons
 void hr2di_gather_links(const hr2di_link_run *run, size_t order, size_t bands, const double *up,
                         double *down) {
   const size_t lead = run->block.lead;
-  if (bands > 1 || order > LOW || (lead != order && lead + MORE != order))
+  if (bands > 1 || order < 2 || order > LOW || (lead != order && lead + MORE != order))
     add_each(run, order, bands, up, down);
   else if (run->directed)
     one_way(run, order, up, down);

@@ -340,6 +340,7 @@ hr2d_status hr2d_leaf_sums(const hr2d_hierarchy *hierarchy, size_t row_from, siz
   walker *w;
   if (row_to == 0) row_to = patches;
   if (row_from > row_to || row_to > patches) return HR2D_EINVAL;
+  if (hr2di_scene_has_gas(hierarchy->scene)) return HR2D_EUNSUPPORTED;
   hr2di_scene_watch(hierarchy->scene, &watch, NULL, NULL, "row sums");
   hr2d_status status =
       make_walker(hierarchy, alloc, &watch, hierarchy->elements, back != NULL, &w);

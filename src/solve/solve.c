@@ -15,6 +15,7 @@
 #include "solve/closure.h"
 #include "solve/equation.h"
 #include "solve/existence.h"
+#include "solve/gas-rows.h"
 #include "solve/heat-scene.h"
 #include "solve/power-cut-off.h"
 #include "solve/solve-how.h"
@@ -36,6 +37,9 @@ static hr2d_status check_options(hr2d_linkset *links, const hr2d_solve_options *
     return hr2di_message_fail(message, HR2D_EUNSUPPORTED,
                               "values from outside do not tell the temperatures of patches of "
                               "given flux in several bands");
+  if (links->share &&
+      hr2di_gas_refuses(links->hierarchy->scene, "shares do not solve", &links->message))
+    return HR2D_EUNSUPPORTED;
   if (links->counts.elements == 0)
     return hr2di_message_fail(message, HR2D_ESTATE, "the link set was never refined");
   return HR2D_OK;
@@ -72,15 +76,16 @@ static void add_escape(const hr2di_equation *s, size_t leaf, size_t band, hr2di_
   const hr2di_transport *t = &s->transport;
   const size_t at = leaf * t->width + band;
   const double area = s->weight[leaf * t->order];
-  if (!hr2di_balance_holds(&s->balance, leaf)) {
+  const double *missing = t->gas ? t->gas : s->balance.missing;
+  if (!t->gas && !hr2di_balance_holds(&s->balance, leaf)) {
     hr2di_sum_add(escaped, area * s->radiosity[at]);
     hr2di_sum_add(escaped, -area * s->irradiance[at]);
     if (s->outside) hr2di_sum_add(escaped, area * s->outside[at]);
     return;
   }
   for (size_t l = 0; l < t->order; l++)
-    hr2di_sum_add(escaped, area * (s->balance.missing[leaf * t->order + l] *
-                                   s->radiosity[at + l * t->bands]));
+    hr2di_sum_add(escaped,
+                  area * (missing[leaf * t->order + l] * s->radiosity[at + l * t->bands]));
 }
 
 /* Powers in scene lengths. */
@@ -119,6 +124,19 @@ static int take_raised(hr2di_equation *s, const double *leaf_field, double *fiel
   return finite;
 }
 
+/* Sets the heat of the gas in all bands. */
+static hr2d_status set_gas(const hr2di_equation *s, hr2d_solution *made) {
+  const hr2di_transport *t = &s->transport;
+  const double unit = hr2d_scene_unit(t->scene);
+  made->gas_heat = hr2di_alloc(&made->alloc, t->bands, sizeof *made->gas_heat);
+  for (size_t b = 0; b < t->bands && made->gas_heat; b++) {
+    const double emission = ldexp(hr2di_scene_gas_emission(t->scene, b), -s->exponent[b]);
+    made->gas_heat[b] =
+        ldexp(unit * hr2di_gas_rows_heat(t, b, emission, s->radiosity), s->exponent[b]);
+  }
+  return made->gas_heat ? HR2D_OK : HR2D_ENOMEM;
+}
+
 /* Sets the powers of all bands, and what they are off. */
 static hr2d_status set_powers(hr2di_equation *s, hr2d_solution *made) {
   hr2di_transport *t = &s->transport;
@@ -126,6 +144,7 @@ static hr2d_status set_powers(hr2di_equation *s, hr2d_solution *made) {
     t->failed = hr2di_watch_work(t->watch, t->leaves / 4);
     made->power[band] = sum_power(s, band);
   }
+  if (t->gas && !t->failed) t->failed = set_gas(s, made);
   if (t->failed || !hr2di_symmetry_cuts(&t->scene->symmetry)) return t->failed;
   made->power_cut_off = hr2di_alloc(&made->alloc, t->bands, sizeof *made->power_cut_off);
   return made->power_cut_off ? hr2di_power_cut_off(s, made->power_cut_off) : HR2D_ENOMEM;

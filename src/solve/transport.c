@@ -67,6 +67,7 @@ hr2d_status hr2di_transport_init(hr2di_transport *t, const hr2d_linkset *links, 
                          .order = order,
                          .bands = h->scene->bands,
                          .width = order * h->scene->bands,
+                         .by_blocks = order > 1 || hr2di_scene_has_gas(h->scene),
                          .elements = h->elements,
                          .slices = hr2di_transport_slices(links, order),
                          .threads = threads,
@@ -93,7 +94,7 @@ hr2d_status hr2di_transport_init(hr2di_transport *t, const hr2d_linkset *links, 
 
 hr2d_status hr2di_transport_lead(hr2di_transport *t, const hr2di_link_blocks *blocks) {
   t->blocks = *blocks;
-  if (!blocks->value || t->order == 1 || t->order == blocks->order)
+  if (!blocks->value || !t->by_blocks || t->order == blocks->order)
     return hr2di_watch_work(t->watch, t->elements / 16);
   t->blocks.rest = NULL;
   t->blocks.order = t->blocks.lead = t->order;
@@ -122,6 +123,7 @@ void hr2di_transport_clear(hr2di_transport *t) {
   hr2di_alloc_free(&t->alloc, t->closed);
   hr2di_alloc_free(&t->alloc, t->rows);
   hr2di_alloc_free(&t->alloc, t->sky);
+  hr2di_alloc_free(&t->alloc, t->gas);
 }
 
 /* Keeps what stopped the watch; whether anything has failed.  Other shares are told at once, as
@@ -232,7 +234,7 @@ static void gather_slice(const hr2di_transport *t, hr2di_transport_part part, si
   double *down = t->down + slice * field;
   if (hr2di_watch_work(watch, field / 128)) return;
   memset(down, 0, field * sizeof *down);
-  if (t->order > 1)
+  if (t->by_blocks)
     gather_blocks(t, part, slice, down, watch);
   else
     gather_areas(t, slice, down, watch);
@@ -257,8 +259,7 @@ static void divide(hr2di_transport *t) {
     for (size_t k = 0; k < width; k++) t->down[e * width + k] /= element[e].length;
 }
 
-/* Pushes the irradiance of elements down to the leaves. */
-static void lower(hr2di_transport *t, double *irradiance) {
+void hr2di_transport_lower(hr2di_transport *t, double *irradiance) {
   const size_t width = t->width;
   if (!has_failed(t)) hr2di_push_pull_down(&t->trees, t->receive, t->down);
   for (size_t k = 0; k < t->leaves && !declare(t, k); k++)
@@ -322,7 +323,7 @@ void hr2di_transport_apply_part(hr2di_transport *t, hr2di_transport_part part,
   pull(t, t->send, radiosity);
   if (t->failed) return;
   gather(t, part);
-  if (!has_failed(t)) lower(t, irradiance);
+  if (!has_failed(t)) hr2di_transport_lower(t, irradiance);
   has_failed(t);
 }
 

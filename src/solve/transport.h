@@ -22,6 +22,7 @@ typedef struct hr2di_transport {
   hr2di_push_pull trees;
   hr2di_image_map image_map;
   size_t order, bands, width; /* width is order × bands */
+  int by_blocks; /* links exchange by blocks, not by areas: above order 1, and through gas */
   size_t elements, leaves;
   uint32_t *leaf;       /* the element of each leaf */
   uint32_t *other_leaf; /* the leaf on the other side of a pane, elsewhere the leaf itself; NULL
@@ -33,6 +34,8 @@ typedef struct hr2di_transport {
   double *send;     /* the same for the pull; equal to `receive` unless links are directed */
   double *closure;  /* leaves × order × order, added to the diagonal; NULL for none */
   double *sky;      /* leaves × order: form factor of the background; NULL: none */
+  double *gas;      /* leaves × order: the part m of the light of a leaf that gas absorbs, or
+                       that escapes into it; so much of E_g arrives from it.  NULL: no gas */
   size_t slices;    /* parts into which the links are cut, whatever the number of threads */
   unsigned threads; /* as in options */
   hr2di_cluster_room room;
@@ -79,6 +82,9 @@ static inline hr2d_status hr2di_transport_status(const hr2di_transport *t) {
 
 /* Pulls a leaf field up to every element, into t->up. */
 void hr2di_transport_pull(hr2di_transport *t, const double *leaf_field);
+
+/* Pushes irradiance of elements, in t->down, down to the leaves. */
+void hr2di_transport_lower(hr2di_transport *t, double *irradiance);
 
 /* irradiance = K radiosity: H_i = Σ_j AF_ij B_j / A_i on leaves. */
 void hr2di_transport_apply(hr2di_transport *t, const double *radiosity, double *irradiance);

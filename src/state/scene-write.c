@@ -139,6 +139,7 @@ static void put_lights(hr2di_writer *w, const hr2d_scene *scene) {
 hr2d_status hr2d_state_write_scene(const hr2d_scene *scene, hr2d_write_fn write, void *ctx) {
   if (!scene || !write) return HR2D_EINVAL;
   if (!scene->committed) return HR2D_ESTATE;
+  if (hr2di_scene_has_gas(scene)) return HR2D_EUNSUPPORTED;
   const size_t patches = hr2di_scene_cell(scene);
   const int panes = has_panes(scene);
   for (size_t k = 0; k < patches; k++)

@@ -261,6 +261,8 @@ hr2d_status hr2d_state_read(hr2d_linkset *links, hr2d_read_fn read, void *ctx,
   if (!links || !read || !solution) return HR2D_EINVAL;
   hr2d_hierarchy *h = links->hierarchy;
   const size_t roots = h->scene->patches;
+  if (hr2di_gas_refuses(h->scene, "states are not read", &links->message))
+    return HR2D_EUNSUPPORTED;
   if (links->store.count > 0 || h->elements > roots || hr2di_hierarchy_busy(h))
     return hr2di_message_fail(&links->message, HR2D_ESTATE,
                               "the set or its hierarchy is not empty");

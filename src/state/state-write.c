@@ -168,7 +168,7 @@ hr2d_status hr2d_state_write(const hr2d_solution *solution, hr2d_write_fn write,
   if (!solution || !write) return HR2D_EINVAL;
   const hr2d_hierarchy *h = solution->hierarchy;
   hr2di_writer w;
-  if (!has_state(solution)) return HR2D_EUNSUPPORTED;
+  if (!has_state(solution) || hr2di_scene_has_gas(h->scene)) return HR2D_EUNSUPPORTED;
   hr2di_watch watch;
   hr2di_scene_watch(h->scene, &watch, NULL, NULL, "state");
   hr2di_writer_init(&w, write, ctx);

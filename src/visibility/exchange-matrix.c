@@ -77,6 +77,7 @@ hr2d_status hr2d_exchange_matrix(const hr2d_scene *scene, const hr2d_matrix_opti
                                  double *area, hr2d_matrix_counts *counts) {
   if (!scene || !area) return HR2D_EINVAL;
   if (!scene->committed) return HR2D_ESTATE;
+  if (hr2di_scene_has_gas(scene)) return HR2D_EUNSUPPORTED;
   matrix m = {.n = scene->patches, .area = area, .unit = hr2d_scene_unit(scene)};
   hr2d_matrix_options o = HR2D_MATRIX_OPTIONS_INIT;
   hr2d_status status = hr2di_sized_copy(&o, sizeof o, options);

@@ -248,6 +248,7 @@ hr2d_status hr2d_exchange_rows_create(const hr2d_scene *scene,
                                       hr2d_exchange_rows **rows, hr2d_matrix_counts *counts) {
   if (!scene || !rows) return HR2D_EINVAL;
   if (!scene->committed) return HR2D_ESTATE;
+  if (hr2di_scene_has_gas(scene)) return HR2D_EUNSUPPORTED;
   hr2d_matrix_options o = HR2D_MATRIX_OPTIONS_INIT;
   hr2d_status status = hr2di_sized_copy(&o, sizeof o, options);
   if (status) return status;

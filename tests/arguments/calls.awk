@@ -50,6 +50,7 @@ BEGIN {
   good["scene_set_period.period"] = "((hr2d_point){9, 0})"
   good["solution_element.element"] = good["element_level.element"] = "0"
   good["element_parent.element"] = "0"; good["hierarchy_leaf.patch"] = "1"
+  good["scene_absorption.gas"] = good["solution_gas.gas"] = "0"
   good["scene_mirror.mirror"] = good["scene_image.image"] = "0"
   good["scene_mirror.scene"] = "s->mirrored"
   good["exchange_area_occluded.j"] = good["exchange_area_past.j"] = "s->segment + 1"
@@ -70,7 +71,8 @@ BEGIN {
     "const hr2d_field_values *|const hr2d_field_grid *|const hr2d_refine_options *|" \
     "const hr2d_solve_options *|const hr2d_matrix_options *|const hr2d_clusters_options *|" \
     "const hr2d_field_options *|const hr2d_lint_options *|const hr2d_past_options *|" \
-    "scene_add.index|scene_add_thermal.index|scene_split_crossings.cuts|study_run.done|" \
+    "scene_add.index|scene_add_thermal.index|scene_add_gas.index|solution_gas.emission|" \
+    "solution_gas.heat|scene_split_crossings.cuts|study_run.done|" \
     "scene_heat.value|hierarchy_divide.child|leaf_sums.front|leaf_sums.back|" \
     "field_rows_visit.normal|const hr2d_enclose_options *|hr2d_enclosure_account *|" \
     "const hr2d_light *|operator_solve.start|operator_gradient.v|operator_gradient.w|" \
@@ -80,7 +82,8 @@ BEGIN {
 
   # Numbers of items of an array: too large a one cannot be noticed.
   n = split("count size bands pieces room important_count emission_bands reflectance_bands " \
-    "transmittance_bands emissivity_bands kelvins order columns rows first from to", list, " ")
+    "transmittance_bands absorption_bands emissivity_bands kelvins order columns rows first " \
+    "from to", list, " ")
   for (k = 1; k <= n; k++) counts[list[k]] = 1
   # A number is as good as any other; or the value of a wrong argument is a text all the same.
   n = split("linkset_read.first options_init.size hierarchy_set_order.order", list, " ")

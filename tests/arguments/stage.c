@@ -141,6 +141,8 @@ static hr2d_scene *draw_pair(void) {
 
 static void make_objects(stage *s) {
   s->scene = draw();
+  const hr2d_gas none = HR2D_GAS_INIT;
+  ck_assert_int_eq(hr2d_scene_add_gas(s->scene, &none, NULL), HR2D_OK);
   s->drawn = draw();
   s->mirrored = draw();
   ck_assert_int_eq(hr2d_scene_create(NULL, &s->empty), HR2D_OK);
@@ -195,6 +197,11 @@ static void make_structs(stage *s) {
   s->good_patch = (hr2d_patch){.a = {5, 5}, .b = {6, 5}};
   s->good_thermal = (hr2d_thermal){
       .struct_size = sizeof s->good_thermal, .given = HR2D_HEAT_TEMPERATURE, .value = 300};
+  s->good_gas = (hr2d_gas){.struct_size = sizeof s->good_gas,
+                           .absorption = s->half,
+                           .absorption_bands = 1,
+                           .emission = s->half,
+                           .emission_bands = 1};
   s->good_share =
       (hr2d_share){.struct_size = sizeof s->good_share, .count = 1, .combine = combine};
   s->good_target = (hr2d_target)HR2D_TARGET_INIT;

@@ -79,6 +79,17 @@ static hr2d_status add_function(fault_stage *s, uint64_t *sum) {
   return fault_mix_stage(s, sum, hr2d_scene_add_thermal(s->scene, &patch, &thermal, NULL));
 }
 
+static hr2d_status add_gas(fault_stage *s, uint64_t *sum) {
+  static const double kappa[] = {1, 1, 1}, emission[] = {1, 2, 3};
+  hr2d_gas gas = HR2D_GAS_INIT;
+  gas.absorption = kappa;
+  gas.emission = emission;
+  gas.absorption_bands = gas.emission_bands = 3;
+  const hr2d_status status = hr2d_scene_add_gas(s->scene, &gas, NULL);
+  *sum = fault_mix_count(*sum, hr2d_scene_gases(s->scene));
+  return fault_mix_stage(s, sum, status);
+}
+
 static hr2d_status set_background(fault_stage *s, uint64_t *sum) {
   static const double sky[] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10};
   return fault_mix_stage(s, sum, hr2d_scene_set_background(s->scene, sky, 10));
@@ -429,6 +440,7 @@ START_TEST(scenes) {
   PLAY("scene_add_thermal", {.depth = DEPTH_SCENE}, add_thermal, of_scene, 0);
   PLAY("scene_add_thermal, table", {.depth = DEPTH_SCENE}, add_table, of_scene, 0);
   PLAY("scene_add_thermal, function", {.depth = DEPTH_SCENE}, add_function, of_scene, 0);
+  PLAY("scene_add_gas", {.depth = DEPTH_SCENE}, add_gas, of_scene, 0);
   PLAY("scene_parse, thermal", {.depth = DEPTH_SCENE}, parse_thermal, of_scene, 0);
   PLAY("scene_set_background", {.depth = DEPTH_FILLED, .plan = PLAN_OPEN}, set_background,
        of_scene, 0);
@@ -528,6 +540,11 @@ START_TEST(solutions) {
        {.depth = DEPTH_REFINED, .plan = PLAN_ROOM, .oracle = hr2d_oracle_bf()}, solve, of_links,
        0);
   PLAY("solve, order 4", {.depth = DEPTH_REFINED, .plan = PLAN_ROOM, .order = 4}, solve,
+       of_links, 60);
+  PLAY("solve, gas", {.depth = DEPTH_REFINED, .plan = PLAN_GAS}, solve, of_links, 60);
+  PLAY("solve, gas, order 4", {.depth = DEPTH_REFINED, .plan = PLAN_GAS, .order = 4}, solve,
+       of_links, 60);
+  PLAY("solve, open, gas", {.depth = DEPTH_REFINED, .plan = PLAN_OPEN_GAS, .order = 3}, solve,
        of_links, 60);
   PLAY("solve, open, order 4", {.depth = DEPTH_REFINED, .plan = PLAN_OPEN, .order = 4}, solve,
        of_links, 60);

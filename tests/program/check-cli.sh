@@ -415,7 +415,7 @@ for command in info solve study; do
   check "$command tells the crossing" grep -q '^crossings  *1 cut$' "$work/out"
   check "$command writes it" grep -q '^  "cuts": 1,$' "$work/cut.json"
 done
-for effect in occlusion interreflection emission bands two-sided facing background corner; do
+for effect in occlusion interreflection emission bands two-sided facing background corner medium; do
   hr2d solve "$far" --quiet --csv "$work/one.csv"
   hr2d solve "$far" --quiet --csv "$work/forced.csv" --force "$effect"
   check "forced $effect changes no bit" cmp -s "$work/one.csv" "$work/forced.csv"

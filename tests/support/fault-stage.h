@@ -25,6 +25,8 @@ typedef enum fault_plan {
   PLAN_OPEN,     /* two walls and an obstacle under a sky, in part dark */
   PLAN_PAIR,     /* two walls that face each other */
   PLAN_HEAT,     /* a room of three bands with walls of given flux */
+  PLAN_GAS,      /* the room, full of gas */
+  PLAN_OPEN_GAS, /* the two walls in gas */
   PLAN_CROSSING, /* two bars that cross in a room; cannot be committed */
   PLAN_IMAGES,   /* that under a sky with a mirror, and a period */
   PLAN_PLATES,   /* the two walls between two mirrors: images that are seen are cut off */

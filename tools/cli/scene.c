@@ -156,3 +156,15 @@ double scene_longest_patch(const hr2d_scene *scene) {
     longest = fmax(longest, hr2d_scene_length(scene, k));
   return longest;
 }
+
+int scene_has_gas(const hr2d_scene *scene) {
+  return hr2d_scene_absorption(scene, 0, 0) > 0;
+}
+
+int scene_complain(const options *o, const hr2d_scene *scene, hr2d_status status) {
+  if (status == HR2D_EUNSUPPORTED && scene_has_gas(scene))
+    return complain(o->scene,
+                    "the scene has a gas, \"medium\", through which this version does not "
+                    "compute what is asked for");
+  return complain_call(o->scene, "", status);
+}

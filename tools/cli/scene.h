@@ -12,6 +12,13 @@
    that were cut.  Returns 0 or EXIT_FAILED. */
 int scene_load(const options *o, unsigned force, hr2d_scene **scene, size_t *cuts);
 
+/* Whether light passes through gas. */
+int scene_has_gas(const hr2d_scene *scene);
+
+/* Complains of a call on the scene that failed, as complain_call() does: of gas, if that is
+   what the call does not go through. */
+int scene_complain(const options *o, const hr2d_scene *scene, hr2d_status status);
+
 /* The head of a summary: the scene, and with --split-crossings the number of cuts.  Titles are
    `width` columns wide. */
 void scene_print(const options *o, int width, size_t cuts);

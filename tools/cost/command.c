@@ -77,6 +77,11 @@ int cost_command(const options *o) {
   int status = options_check_outputs(o);
   if (!status) status = scene_load(o, o->force, &scene, &c.cuts);
   if (status) return status;
+  if (scene_has_gas(scene)) {
+    status = scene_complain(o, scene, HR2D_EUNSUPPORTED);
+    hr2d_scene_destroy(scene);
+    return status;
+  }
   c.scene = scene;
   cost_choose_methods(&c);
   progress_start(&c.line, o->quiet);

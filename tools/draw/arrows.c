@@ -2,6 +2,7 @@
 /* Arrows along the net flow of light, −Φ, as Φ points to where the light comes from.  |Φ| is at
    most πM, and is that where all light comes from one direction.  So the length of an arrow is
    |Φ|/(πM): how one-sided the light is. */
+#include "cli/scene.h"
 #include "draw/picture.h"
 
 #if HAVE_CAIRO
@@ -48,7 +49,7 @@ static int look(const picture *p, quiver *q) {
   const hr2d_field_values to = {
       .struct_size = sizeof to, .mean = q->mean, .flux = q->flux, .place = q->place};
   const hr2d_status status = hr2d_field_at(p->run->solution, q->at, q->count, NULL, &to);
-  return status ? complain_call(p->run->options->scene, "", status) : EXIT_DONE;
+  return status ? scene_complain(p->run->options, p->run->scene, status) : EXIT_DONE;
 }
 
 /* The arrow at place k on the page, as a vector; of all bands or of the one that is shown. */

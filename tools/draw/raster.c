@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The light at a grid of points of the page. */
+#include "cli/scene.h"
 #include "draw/picture.h"
 
 #if HAVE_CAIRO
@@ -66,7 +67,7 @@ static int look_at(const picture *p, const hr2d_field_grid *grid, look *l) {
   const hr2d_status status = hr2d_field_on_grid(p->run->solution, grid, &how, &to, &l->counts);
   progress_clear(&shown);
   progress_end();
-  return status ? complain_call(p->run->options->scene, "", status) : EXIT_DONE;
+  return status ? scene_complain(p->run->options, p->run->scene, status) : EXIT_DONE;
 }
 
 static int fill_raster(const picture *p, double tolerance, raster *r, look *l) {

@@ -44,7 +44,7 @@ static int integrate(factors *f) {
   if (status == HR2D_ENOMEM)
     return complain(f->options->scene, "out of memory: the factors of %zu patches do not fit",
                     f->patches);
-  return status ? complain_call(f->options->scene, "", status) : 0;
+  return status ? scene_complain(f->options, f->scene, status) : 0;
 }
 
 /* In a closed scene 1 − Σ F_ij is a small difference: the rounding errors of the sum are

@@ -101,7 +101,7 @@ static int look(field *f, const run *r) {
                             : hr2d_field_at(r->solution, f->at, f->count, &how, &to);
   progress_clear(&p);
   progress_end();
-  return status ? complain_call(f->options->scene, "", status) : 0;
+  return status ? scene_complain(f->options, r->scene, status) : 0;
 }
 
 static void print_temperatures(const field *f) {

@@ -64,6 +64,11 @@ static void print_background(const hr2d_scene *scene) {
   puts("");
 }
 
+static void print_gas(const hr2d_scene *scene) {
+  if (hr2d_scene_gases(scene))
+    printf("gas           absorbs %.6g per length\n", hr2d_scene_absorption(scene, 0, 0));
+}
+
 static void print_symmetry(const hr2d_scene *scene) {
   const hr2d_point d = hr2d_scene_period(scene);
   for (size_t k = 0; k < hr2d_scene_mirrors(scene); k++) {
@@ -87,6 +92,7 @@ static void print_summary(const hr2d_scene *scene, const summary *s) {
   print_range("reflectance", s->reflectance);
   print_range("emission", s->emission);
   print_background(scene);
+  print_gas(scene);
   print_symmetry(scene);
   printf("effects\n");
   for (int e = 0; e < HR2D_EFFECT_COUNT; e++) {

@@ -5,6 +5,7 @@
 #include <errno.h>
 #include <string.h>
 
+#include "cli/scene.h"
 #include "output/complain.h"
 #include "output/output.h"
 
@@ -51,7 +52,9 @@ int state_save(run *r) {
   int status = output_open(&out, r->options->state);
   if (status) return status;
   const hr2d_status written = hr2d_state_write(r->solution, write_bytes, out.stream);
-  if (written == HR2D_EUNSUPPORTED)
+  if (written == HR2D_EUNSUPPORTED && scene_has_gas(r->scene))
+    status = scene_complain(r->options, r->scene, written);
+  else if (written == HR2D_EUNSUPPORTED)
     status =
         complain(r->options->state,
                  "a state cannot keep emissivities of patches of given flux that depend on "

@@ -2,6 +2,7 @@
 /* Runs to a target error or a time budget; the errors of other runs; B and H at points. */
 #include <math.h>
 
+#include "cli/scene.h"
 #include "output/clock.h"
 #include "output/complain.h"
 #include "run/run.h"
@@ -23,7 +24,7 @@ static hr2d_target make_target(const run *r, progress *p) {
   hr2d_target target = HR2D_TARGET_INIT;
   target.error = o->target_error > 0 ? o->target_error : HR2D_SMALLEST_ERROR;
   target.norm = o->norm;
-  target.points = options_want_points(o);
+  target.points = options_want_points(o) && !scene_has_gas(r->scene);
   target.important = run_important(r);
   target.important_count = o->importance.count;
   target.floor = o->floor;
@@ -69,6 +70,7 @@ int run_target(run *r, progress *p) {
   const hr2d_status status = hr2d_solve_to(r->scene, &target, &r->solution, &r->account);
   progress_clear(p);
   r->inaccurate = status == HR2D_EACCURACY && r->solution;
+  if (status == HR2D_EUNSUPPORTED) return scene_complain(r->options, r->scene, status);
   if (status && status != HR2D_EACCURACY)
     return complain_call(r->options->scene, r->account.reason, status);
   if (!r->solution) return complain(r->options->scene, "%s", r->account.reason);
@@ -90,7 +92,7 @@ static hr2d_status compare(run *r, progress *p) {
   how.progress = progress_show;
   how.progress_ctx = p;
   how.share = r->share;
-  how.points = options_want_points(r->options);
+  how.points = options_want_points(r->options) && !scene_has_gas(r->scene);
   for (how.error = 1e-6; how.error > 0.5e-12; how.error *= 1e-3) {
     hr2d_account found;
     const hr2d_status status = hr2d_solution_account(r->solution, &how, &found);
@@ -131,7 +133,7 @@ int run_enclose(run *r) {
   const hr2d_status status = hr2d_enclose(r->scene, &how, &r->enclosure, &r->enclosed);
   progress_clear(&p);
   if (!status) return EXIT_DONE;
-  if (!*r->enclosed.reason) return complain_call(o->scene, "", status);
+  if (!*r->enclosed.reason) return scene_complain(o, r->scene, status);
   return complain(o->scene, "--enclose: %s", r->enclosed.reason);
 }
 
@@ -142,7 +144,7 @@ void run_enclosed_errors(const run *r, double *average, double *irradiance) {
 }
 
 int run_gathers(const run *r) {
-  return r->account.order > 1 || options_targeted(r->options);
+  return (r->account.order > 1 || options_targeted(r->options)) && !scene_has_gas(r->scene);
 }
 
 int run_point(const run *r, size_t patch, double t, double *b, double *h) {

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "cli/scene.h"
 #include "output/provenance.h"
 #include "solve/solve.h"
 
@@ -174,6 +175,21 @@ static json_t *target(const run *r) {
   return object;
 }
 
+/* Of each band; nothing is said without gas. */
+static json_t *gas(const run *r) {
+  json_t *list = json_array();
+  for (size_t b = 0; b < hr2d_scene_bands(r->scene); b++) {
+    double emission = NAN, heat = NAN;
+    json_t *band = json_object();
+    hr2d_solution_gas(r->solution, 0, b, &emission, &heat);
+    json_put(&band, "absorption", json_number(hr2d_scene_absorption(r->scene, 0, b)));
+    json_put(&band, "emission", json_number(emission));
+    json_put(&band, "heat", json_number(heat));
+    json_push(&list, band);
+  }
+  return list;
+}
+
 /* The keys of the method, which every solve has; null if they mean nothing to it. */
 static void put_method(json_t **root, const run *r) {
   const options *o = r->options;
@@ -263,6 +279,7 @@ int solve_write_json(const run *r, double total_seconds, const char *path) {
   json_put(&root, "peak_bytes", json_count(run_peak_bytes()));
   if (r->share) json_put(&root, "ranks", ranks(r));
   json_put(&root, "power", power(r));
+  if (scene_has_gas(r->scene)) json_put(&root, "gas", gas(r));
   json_put(&root, "residual", json_number(hr2d_solution_residual(r->solution)));
   json_put(&root, "error", errors(r));
   if (r->options->enclose > 0) json_put(&root, "enclosed", enclosed(r));

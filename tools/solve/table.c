@@ -216,6 +216,19 @@ static void print_power(const run *r) {
   }
 }
 
+/* What the gas gives to the patches, or takes from them. */
+static void print_gas(const run *r) {
+  const size_t bands = hr2d_scene_bands(r->scene);
+  for (size_t b = 0; b < bands; b++) {
+    double emission, heat;
+    if (!scene_has_gas(r->scene) || hr2d_solution_gas(r->solution, 0, b, &emission, &heat))
+      continue;
+    char title[32] = "gas";
+    if (bands > 1) snprintf(title, sizeof title, "gas %zu", b);
+    printf("%-9s emission %.6g, gives %.6g to the patches\n", title, emission, heat);
+  }
+}
+
 static void print_effort(const run *r, const hr2d_refine_counts *n) {
   const effort list[] = {
       {"oracle calls", n->oracle_calls},   {"exchange areas", n->exchange_areas},
@@ -236,6 +249,7 @@ int solve_print(const run *r, double total_seconds) {
   print_counts(r, &counts);
   printf("order     p = %u\n", r->account.order);
   print_power(r);
+  print_gas(r);
   print_error(r);
   print_enclosed(r);
   print_effort(r, &counts);

@@ -458,7 +458,7 @@ START_TEST(the_background_is_that_of_the_last_file_that_has_one) {
       {WITH_BACKGROUND("[]", ""), HR2D_ESYNTAX, {1, 0.25}},
       {WITH_BACKGROUND("1e999", ""), HR2D_ESYNTAX, {1, 0.25}},
       {WITH_BACKGROUND("0.75", BAD_WALL), HR2D_ESCENE, {1, 0.25}},
-      {WITH_BACKGROUND("0.75,\"medium\":1", ""), HR2D_EUNSUPPORTED, {1, 0.25}},
+      {WITH_BACKGROUND("0.75,\"medium\":-1", ""), HR2D_ESCENE, {1, 0.25}},
   };
   for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
     hr2d_scene *scene = file_parsed(WITH_BACKGROUND("[1,0.25]", WALL));

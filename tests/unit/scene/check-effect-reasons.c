@@ -111,7 +111,7 @@ END_TEST
 
 START_TEST(effects_have_names) {
   const char *const name[] = {"occlusion", "interreflection", "emission", "bands", "two-sided",
-                              "facing",    "background",      "corner",   "panes"};
+                              "facing",    "background",      "corner",   "panes", "medium"};
   ck_assert_uint_eq(sizeof name / sizeof *name, HR2D_EFFECT_COUNT);
   hr2d_scene *scene = test_named_scene("par1");
   for (int k = 0; k < HR2D_EFFECT_COUNT; k++) {

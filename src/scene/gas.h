@@ -1,0 +1,48 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The gas of a scene, and which calls do without one. */
+#ifndef HR2D_SRC_SCENE_GAS_H
+#define HR2D_SRC_SCENE_GAS_H
+
+#include <hr2d/gas.h>
+
+#include "base/message.h"
+#include "base/watch.h"
+
+/* As it was given, with values in memory of its own. */
+typedef struct hr2di_gas {
+  size_t absorption_bands, emission_bands;
+  hr2d_heat given;
+  double value; /* as `given` says */
+  hr2d_section section;
+  double values[]; /* κ, then E_g */
+} hr2di_gas;
+
+/* The most values that it has of κ or of E_g. */
+size_t hr2di_scene_gas_bands(const hr2d_scene *scene);
+
+/* Whether light passes through gas: a committed scene has one with κ > 0.  Everything asks
+   this, and so a scene without gas takes the way that it always took. */
+int hr2di_scene_has_gas(const hr2d_scene *scene);
+
+/* κ per unit of the scaled coordinates. */
+double hr2di_scene_scaled_absorption(const hr2d_scene *scene);
+hr2d_section hr2di_scene_section(const hr2d_scene *scene);
+
+/* Whether light comes from gas: it reaches every patch. */
+int hr2di_scene_gas_emits(const hr2d_scene *scene);
+
+/* E_g of a band; 0 without gas, and if its heat is given. */
+double hr2di_scene_gas_emission(const hr2d_scene *scene, size_t band);
+
+/* HR2D_EUNSUPPORTED with a message if the scene has gas, through which `what` does not go; else
+   HR2D_OK.  `message` may be NULL. */
+hr2d_status hr2di_gas_refuses(const hr2d_scene *scene, const char *what,
+                              hr2di_message *message);
+
+/* Whether a gas is valid.  The scene owns `gas` on success, from its hooks.  For readers. */
+hr2d_status hr2di_scene_make_gas(hr2d_scene *scene, const hr2d_gas *given, hr2di_gas **gas);
+
+/* The part of commit: bands, and what gas does not go with.  Symmetry is known. */
+hr2d_status hr2di_scene_check_gas(hr2d_scene *scene, hr2di_watch *watch);
+
+#endif

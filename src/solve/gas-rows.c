@@ -1,0 +1,100 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Each block came with the part of its light that is absorbed on the way, ∫∫ G V D φ_l, which
+   has its own digits however thin the gas is: m is their sum. */
+#include "solve/gas-rows.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "base/neumaier-sum.h"
+#include "hierarchy/hierarchy-impl.h"
+#include "scene/scene-impl.h"
+#include "scene/with-plane.h"
+#include "solve/closure.h"
+#include "visibility/back-visibility.h"
+
+/* Sums over links into t->down, one after the other. */
+static hr2d_status sum_links(hr2di_transport *t) {
+  const hr2d_linkset *links = t->links;
+  const size_t order = t->order, stride = t->blocks.lost_order;
+  memset(t->down, 0, t->elements * order * sizeof *t->down);
+  for (uint64_t k = 0; k < links->store.count; k++) {
+    if (k % 64 == 0 && hr2di_watch_work(t->watch, 1 + 8 * order)) break;
+    const hr2d_pair pair = hr2di_store_link(&links->store, k).pair;
+    const double *lost = t->blocks.lost + 2 * k * stride;
+    for (size_t l = 0; l < order; l++) t->down[pair.first * order + l] += lost[l];
+    for (size_t l = 0; l < order && !links->directed; l++)
+      t->down[pair.second * order + l] += lost[stride + l];
+  }
+  for (size_t e = 0; e < t->elements; e++)
+    for (size_t l = 0; l < order; l++)
+      t->down[e * order + l] /= t->hierarchy->element[e].length;
+  return hr2di_transport_status(t);
+}
+
+/* m = 1 − K1 on leaves of open patches. */
+static void take_rows(hr2di_transport *t) {
+  for (size_t k = 0; k < t->leaves; k++) {
+    if (t->closed[t->hierarchy->element[t->leaf[k]].patch]) continue;
+    for (size_t l = 0; l < t->order; l++)
+      t->gas[k * t->order + l] = (l == 0) - t->rows[k * t->order + l];
+  }
+}
+
+static hr2d_status check_backs(hr2di_transport *t, hr2di_message *message) {
+  unsigned char *sees = NULL;
+  const hr2d_scene *scene = t->hierarchy->scene;
+  hr2di_with_plane with;
+  hr2d_status status = hr2di_with_plane_init(&with, scene, &t->alloc, t->watch);
+  if (!status)
+    status = hr2di_back_visibility(&with.scene, &t->alloc, t->threads, &sees, t->watch);
+  hr2di_with_plane_clear(&with);
+  for (size_t k = 0; k < scene->patches && sees && !status; k++)
+    if (sees[k] && !t->closed[k])
+      status = hr2di_message_fail(message, HR2D_EUNSUPPORTED,
+                                  "%s may see the back of a patch, which in a scene with gas "
+                                  "this version does not do: give it both sides",
+                                  hr2di_patch_label(scene, k).text);
+  hr2di_alloc_free(&t->alloc, sees);
+  return status;
+}
+
+hr2d_status hr2di_gas_rows_set(hr2di_transport *t, int closed, hr2di_message *message) {
+  const size_t field = t->leaves * t->order;
+  t->gas = hr2di_alloc_zero(&t->alloc, field, sizeof *t->gas);
+  if (!t->gas) return HR2D_ENOMEM;
+  hr2d_status status = sum_links(t);
+  if (!status) hr2di_transport_lower(t, t->gas);
+  if (!status) status = hr2di_transport_status(t);
+  if (!status) status = hr2di_closure_set_order_p(t);
+  if (status) return status;
+  if (!t->all_closed) status = check_backs(t, message);
+  take_rows(t);
+  if (closed) return status;
+  hr2di_alloc_free(&t->alloc, t->closure);
+  hr2di_alloc_free(&t->alloc, t->closed);
+  t->closure = NULL;
+  t->closed = NULL;
+  t->all_closed = 0;
+  return status;
+}
+
+void hr2di_gas_rows_add(const hr2di_transport *t, const int *exponent, double *irradiance) {
+  for (size_t b = 0; b < t->bands; b++) {
+    const double emission = ldexp(hr2di_scene_gas_emission(t->scene, b), -exponent[b]);
+    for (size_t k = 0; k < t->leaves * t->order; k++)
+      irradiance[k * t->bands + b] += t->gas[k] * emission;
+  }
+}
+
+double hr2di_gas_rows_heat(const hr2di_transport *t, size_t band, double emission,
+                           const double *radiosity) {
+  hr2di_sum heat = {0, 0};
+  for (size_t k = 0; k < t->leaves * t->order; k++) {
+    const double area = t->hierarchy->element[t->leaf[k / t->order]].length;
+    const double rest = (k % t->order == 0 ? emission : 0) - radiosity[k * t->bands + band];
+    hr2di_sum_add(&heat, area * (t->gas[k] * rest));
+  }
+  return hr2di_sum_total(&heat);
+}

@@ -1,0 +1,411 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Rooms full of gas: published and independent values, equilibrium, balances, limits, and what
+   a scene without gas does not notice.
+
+   Reference values are of two programs that share nothing with the library: a dense Galerkin
+   method over lines (order 10, corners graded to 1e-7) and a Nyström method over positions,
+   which agree to 3e-13 or better; two are integrals in binary128. */
+#include <math.h>
+#include <string.h>
+
+#include "support/support.h"
+
+enum { WALLS = 6 };
+
+/* A room by its corners, fronts inside. */
+typedef struct room {
+  size_t walls;
+  hr2d_point corner[WALLS];
+  double emission[WALLS], reflectance[WALLS];
+  double kappa, gas; /* κ and E_g */
+  hr2d_section section;
+} room;
+
+#define SQUARE                                                                                 \
+  4, {                                                                                         \
+    {0, 0}, {1, 0}, {1, 1}, {                                                                  \
+      0, 1                                                                                     \
+    }                                                                                          \
+  }
+#define ELL                                                                                    \
+  6, {                                                                                         \
+    {0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {                                                  \
+      0, 2                                                                                     \
+    }                                                                                          \
+  }
+
+static void add_walls(hr2d_scene *scene, const room *r) {
+  for (size_t k = 0; k < r->walls; k++)
+    ck_assert_int_eq(test_add_patch(scene,
+                                    (hr2d_segment){r->corner[k], r->corner[(k + 1) % r->walls]},
+                                    r->emission[k], r->reflectance[k], HR2D_SIDES_FRONT),
+                     HR2D_OK);
+}
+
+static hr2d_gas gas_of(const room *r) {
+  hr2d_gas gas = HR2D_GAS_INIT;
+  gas.absorption = &r->kappa;
+  gas.emission = &r->gas;
+  gas.absorption_bands = gas.emission_bands = 1;
+  gas.section = r->section;
+  return gas;
+}
+
+static hr2d_scene *draw(const room *r) {
+  hr2d_scene *scene = test_new_scene(NULL);
+  const hr2d_gas gas = gas_of(r);
+  add_walls(scene, r);
+  ck_assert_int_eq(hr2d_scene_add_gas(scene, &gas, NULL), HR2D_OK);
+  test_commit(scene);
+  return scene;
+}
+
+static hr2d_solution *solve_to(const hr2d_scene *scene, double error, unsigned threads,
+                               hr2d_account *account) {
+  hr2d_target target = HR2D_TARGET_INIT;
+  hr2d_solution *solution = NULL;
+  target.error = error;
+  target.threads = threads;
+  const hr2d_status status = hr2d_solve_to(scene, &target, &solution, account);
+  ck_assert_msg(!status, "%s: %s", hr2d_strerror(status), account->reason);
+  return solution;
+}
+
+/* The heat that leaves a wall. */
+static double heat_of(const hr2d_solution *s, const hr2d_scene *scene, size_t wall) {
+  return hr2d_solution_net_flux(s, wall, 0) * hr2d_scene_length(scene, wall);
+}
+
+static double gas_heat(const hr2d_solution *s) {
+  double heat;
+  ck_assert_int_eq(hr2d_solution_gas(s, 0, 0, NULL, &heat), HR2D_OK);
+  return heat;
+}
+
+/* Rooms, the heat that leaves each wall, and that of the gas. */
+static const struct known {
+  const char *name;
+  room room;
+  double wall[WALLS], gas;
+} known[] = {
+    {"black, kappa 0.1",
+     {SQUARE, {0}, {0}, 0.1, 1, HR2D_SECTION_LONG},
+     {-0.0932393659614304323, -0.0932393659614304323, -0.0932393659614304323,
+      -0.0932393659614304323},
+     4 * 0.0932393659614304323},
+    {"black, kappa 1",
+     {SQUARE, {0}, {0}, 1, 1, HR2D_SECTION_LONG},
+     {-0.570707619801953, -0.570707619801953, -0.570707619801953, -0.570707619801953},
+     4 * 0.570707619801953},
+    {"black, kappa 10",
+     {SQUARE, {0}, {0}, 10, 1, HR2D_SECTION_LONG},
+     {-0.957553514470964324, -0.957553514470964324, -0.957553514470964324,
+      -0.957553514470964324},
+     4 * 0.957553514470964324},
+    {"black, flat world",
+     {SQUARE, {0}, {0}, 1, 1, HR2D_SECTION_FLAT},
+     {-0.512022299880412, -0.512022299880412, -0.512022299880412, -0.512022299880412},
+     4 * 0.512022299880412},
+    {"grey, cold",
+     {SQUARE, {0}, {.5, .5, .5, .5}, 1, 1, HR2D_SECTION_LONG},
+     {-0.3622774630782, -0.3622774630782, -0.3622774630782, -0.3622774630782},
+     1.4491098523128},
+    {"floor of .8, cold gas",
+     {SQUARE, {.8}, {.2, .5, .8, .5}, 1, 0, HR2D_SECTION_LONG},
+     {0.76536540548751, -0.074179499771803, -0.02223909341329, -0.074179499771803},
+     -0.59476731253061},
+    {"L, black",
+     {ELL, {0}, {0}, 1, 1, HR2D_SECTION_LONG},
+     {-1.42628777506050, -0.64426900279886, -0.66658913013706, -0.66658913013706,
+      -0.64426900279886, -1.42628777506050},
+     5.4742918159928},
+    {"oven",
+     {4, {{0, 0}, {3, 0}, {3, 1}, {0, 1}}, {.16}, {.2, 1, 1, 1}, .25, 1, HR2D_SECTION_LONG},
+     {-1.207821110425, 0, 0, 0},
+     1.207821110425}};
+
+START_TEST(rooms_of_independent_programs) {
+  double worst = 0;
+  for (size_t n = 0; n < sizeof known / sizeof *known; n++) {
+    const struct known *k = &known[n];
+    hr2d_account account;
+    hr2d_scene *scene = draw(&k->room);
+    hr2d_solution *s = solve_to(scene, 1e-12, 1, &account);
+    for (size_t w = 0; w < k->room.walls; w++)
+      worst = fmax(worst, fabs(heat_of(s, scene, w) - k->wall[w]));
+    worst = fmax(worst, fabs(gas_heat(s) - k->gas));
+    ck_assert_msg(worst < 1e-12, "%s: off by %.2e", k->name, worst);
+    hr2d_solution_destroy(s);
+    hr2d_scene_destroy(scene);
+  }
+  printf("heat is off by at most %.1e\n", worst);
+}
+END_TEST
+
+/* What the account says is what the error is, at every target. */
+START_TEST(bounds_hold_at_every_target) {
+  for (size_t n = 4; n < sizeof known / sizeof *known; n++)
+    for (double error = 1e-2; error > 1e-11; error *= 1e-3) {
+      const struct known *k = &known[n];
+      hr2d_account account;
+      hr2d_scene *scene = draw(&k->room);
+      hr2d_solution *s = solve_to(scene, error, 1, &account);
+      double worst = 0, largest = 0;
+      for (size_t w = 0; w < k->room.walls; w++)
+        largest = fmax(largest, hr2d_solution_irradiance(s, w, 0));
+      for (size_t w = 0; w < k->room.walls; w++) {
+        const double loss = 1 - k->room.reflectance[w];
+        if (!(loss > 0)) continue;
+        const double exact =
+            (k->room.emission[w] - k->wall[w] / hr2d_scene_length(scene, w)) / loss;
+        const double h = hr2d_solution_irradiance(s, w, 0);
+        worst = fmax(worst, (fabs(h - exact) - 1e-13) / fmax(h, 1e-6 * largest));
+      }
+      ck_assert_msg(worst <= account.irradiance.bound, "%s to %g: %g for a bound of %g",
+                    k->name, error, worst, account.irradiance.bound);
+      ck_assert_double_le(account.average.estimate, error);
+      hr2d_solution_destroy(s);
+      hr2d_scene_destroy(scene);
+    }
+}
+END_TEST
+
+/* Solves on the links of an oracle. */
+static hr2d_solution *solve_by(test_links *t, const room *r, unsigned order, double epsilon) {
+  *t = test_make_links(draw(r), hr2d_oracle_size(), NULL, NULL, NULL);
+  ck_assert_int_eq(hr2d_hierarchy_set_order(t->hierarchy, order), HR2D_OK);
+  test_refine(t, epsilon, 12);
+  return test_solve(t, HR2D_CLOSURE_ON);
+}
+
+/* Walls, gas and everything of one temperature; some walls are white. */
+START_TEST(equilibrium_is_exact_on_any_elements) {
+  static const unsigned orders[] = {1, 2, 3, 5, 9};
+  double worst = 0, control = 0;
+  for (int n = 0; n < 40; n++) {
+    randoms draws = randoms_stream(test_seed(), n);
+    room r = {ELL, {0}, {0}, random_power(&draws, -12, 6), 2, (hr2d_section)(n % 2)};
+    for (size_t w = 0; w < r.walls; w++) {
+      r.reflectance[w] = n % 4 == 0 ? 1 : random_unit(&draws);
+      r.emission[w] = 2 * (1 - r.reflectance[w]);
+    }
+    test_links t;
+    hr2d_solution *s =
+        solve_by(&t, &r, orders[n % 5], n % 5 == 0 ? 0.5 : random_between(&draws, 0.5, 3));
+    for (size_t w = 0; w < r.walls; w++) {
+      worst = fmax(worst, fabs(hr2d_solution_average(s, w, 0) / 2 - 1));
+      worst = fmax(worst, fabs(hr2d_solution_irradiance(s, w, 0) / 2 - 1));
+    }
+    ck_assert_double_lt(fabs(gas_heat(s)), 1e-13);
+    hr2d_solution_destroy(s);
+    test_free_links(&t);
+    /* negative control: gas of another temperature is seen, if it is not too thin */
+    if (r.kappa < 1e-3) continue;
+    r.gas = 2.2;
+    s = solve_by(&t, &r, orders[n % 5], 1);
+    control = fmax(control, fabs(hr2d_solution_irradiance(s, 0, 0) / 2 - 1));
+    hr2d_solution_destroy(s);
+    test_free_links(&t);
+  }
+  printf("B and H are off by at most %.1e; otherwise by %.1e\n", worst, control);
+  ck_assert_double_lt(worst, 1e-13);
+  ck_assert_double_gt(control, 1e-2);
+}
+END_TEST
+
+/* Thin gas loses 4κV E_g, or πκV E_g, with V the area of the room.  Rows of what arrives and of
+   what is absorbed close even with wrong chords: this does not. */
+START_TEST(thin_gas_emits_by_its_volume) {
+  for (int flat = 0; flat < 2; flat++)
+    for (double kappa = 1e-4; kappa > 1e-13; kappa *= 1e-2) {
+      const double emitted = (flat ? 3.14159265358979323846 : 4) * kappa * 3;
+      const room r = {ELL, {0}, {0}, kappa, 1, (hr2d_section)flat};
+      hr2d_account account;
+      hr2d_scene *scene = draw(&r);
+      hr2d_solution *s = solve_to(scene, 1e-12, 1, &account);
+      const double off = gas_heat(s) / emitted - 1;
+      /* chords are shorter than 3, and so are the means of them that gas makes of itself */
+      ck_assert_double_lt(fabs(off), 2 * kappa + 1e-14);
+      if (kappa > 1e-5) ck_assert_double_gt(fabs(off), 0.1 * kappa);
+      /* the walls get it, with as many digits */
+      double arrives = 0;
+      for (size_t w = 0; w < r.walls; w++) arrives -= heat_of(s, scene, w);
+      ck_assert_double_eq_tol(arrives / gas_heat(s), 1, 1e-13);
+      hr2d_solution_destroy(s);
+      hr2d_scene_destroy(scene);
+    }
+}
+END_TEST
+
+/* White walls and one that is black: all heat of thin gas ends there, after many reflections.
+ */
+START_TEST(thin_gas_between_white_walls_keeps_its_digits) {
+  for (double kappa = 1e-3; kappa > 1e-13; kappa *= 1e-3) {
+    const room r = {SQUARE, {0}, {0, 1, 1, 1}, kappa, 1, HR2D_SECTION_LONG};
+    hr2d_account account;
+    hr2d_scene *scene = draw(&r);
+    hr2d_solution *s = solve_to(scene, 1e-9, 1, &account);
+    ck_assert_double_eq_tol(-heat_of(s, scene, 0) / gas_heat(s), 1, 1e-12);
+    ck_assert_double_eq_tol(gas_heat(s) / (4 * kappa), 1, 10 * kappa + 1e-9);
+    hr2d_solution_destroy(s);
+    hr2d_scene_destroy(scene);
+  }
+}
+END_TEST
+
+START_TEST(powers_balance) {
+  double worst = 0;
+  for (int n = 0; n < 30; n++) {
+    randoms draws = randoms_stream(test_seed() + 1, n);
+    room r = {
+        ELL, {0}, {0}, random_power(&draws, -9, 4), random_unit(&draws), (hr2d_section)(n % 2)};
+    for (size_t w = 0; w < r.walls; w++) {
+      r.reflectance[w] = random_below(&draws, 4) ? random_unit(&draws) : 1;
+      r.emission[w] = random_below(&draws, 2) ? random_unit(&draws) : 0;
+    }
+    test_links t;
+    hr2d_solution *s = solve_by(&t, &r, 1 + (unsigned)n % 6, 1);
+    const hr2d_power p = hr2d_solution_power(s, 0);
+    const double in = p.emitted + p.received;
+    worst = fmax(worst, fabs(p.absorbed + p.escaped - in) / in);
+    ck_assert_double_eq_tol(gas_heat(s), p.received - p.escaped, 1e-13 * in);
+    hr2d_solution_destroy(s);
+    test_free_links(&t);
+  }
+  printf("powers are off by at most %.1e\n", worst);
+  ck_assert_double_lt(worst, 1e-13);
+}
+END_TEST
+
+/* κ → ∞: walls see the gas beside them. */
+START_TEST(thick_gas_is_a_black_body) {
+  const room r = {ELL, {.3, 0, 0, 0, 0, .1}, {.1, .5, .9, 0, 1, .2}, 1e9, 2, HR2D_SECTION_LONG};
+  hr2d_account account;
+  hr2d_scene *scene = draw(&r);
+  hr2d_solution *s = solve_to(scene, 1e-10, 1, &account);
+  for (size_t w = 0; w < r.walls; w++) {
+    ck_assert_double_eq_tol(hr2d_solution_irradiance(s, w, 0), 2, 1e-8);
+  }
+  ck_assert_double_gt(fabs(hr2d_solution_irradiance(s, 0, 0) - 2), 1e-12); /* corners */
+  hr2d_solution_destroy(s);
+  hr2d_scene_destroy(scene);
+}
+END_TEST
+
+/* Two black plates in an ocean of gas: H of one is 1 where the other is as hot as the gas, and
+   otherwise less by the exchange area. */
+START_TEST(open_scenes_end_in_gas) {
+  const double lengths[] = {1, 0.1};
+  for (size_t n = 0; n < 2; n++) {
+    const double kappa = 1 / lengths[n];
+    const double patch[2][6] = {{0, 0, 1, 0, 0, 0}, {1, 0.5, 0, 0.5, 0, 0}};
+    hr2d_scene *scene = test_new_scene(NULL);
+    hr2d_gas gas = HR2D_GAS_INIT;
+    const double one = 1;
+    for (size_t k = 0; k < 2; k++)
+      ck_assert_int_eq(
+          test_add_patch(scene,
+                         (hr2d_segment){{patch[k][0], patch[k][1]}, {patch[k][2], patch[k][3]}},
+                         k == 0, 0, HR2D_SIDES_FRONT),
+          HR2D_OK);
+    gas.absorption = &kappa;
+    gas.emission = &one;
+    gas.absorption_bands = gas.emission_bands = 1;
+    ck_assert_int_eq(hr2d_scene_add_gas(scene, &gas, NULL), HR2D_OK);
+    test_commit(scene);
+    hr2d_account account;
+    hr2d_solution *s = solve_to(scene, 1e-12, 1, &account);
+    /* the upper plate sees B = 1 and gas; the lower one misses what the upper does not send */
+    ck_assert_double_eq_tol(hr2d_solution_irradiance(s, 1, 0), 1, 1e-13);
+    const double missed = 1 - hr2d_solution_irradiance(s, 0, 0);
+    hr2d_hierarchy *h;
+    hr2d_link link = {.pair = {0, 1}};
+    double area;
+    ck_assert_int_eq(hr2d_hierarchy_create(scene, &h), HR2D_OK);
+    link.exchange_area = 1;
+    ck_assert_int_eq(hr2d_blocks(h, &link, 1, &area), HR2D_OK);
+    ck_assert_double_eq_tol(missed, area, 1e-13);
+    ck_assert_double_gt(area, 1e-4);
+    hr2d_hierarchy_destroy(h);
+    hr2d_solution_destroy(s);
+    hr2d_scene_destroy(scene);
+  }
+}
+END_TEST
+
+/* Every bit and every counter. */
+static void expect_same(const room *r, const hr2d_gas *gas, int forces) {
+  hr2d_account account[2];
+  hr2d_solution *s[2];
+  hr2d_scene *scene[2];
+  for (int k = 0; k < 2; k++) {
+    scene[k] = test_new_scene(NULL);
+    add_walls(scene[k], r);
+    if (k && gas) ck_assert_int_eq(hr2d_scene_add_gas(scene[k], gas, NULL), HR2D_OK);
+    if (k && forces) ck_assert_int_eq(hr2d_scene_force(scene[k], HR2D_EFFECT_MEDIUM), HR2D_OK);
+    test_commit(scene[k]);
+    s[k] = solve_to(scene[k], 1e-9, 1, &account[k]);
+  }
+  ck_assert_uint_eq(hr2d_solution_field_size(s[0]), hr2d_solution_field_size(s[1]));
+  ck_assert(!memcmp(hr2d_solution_field(s[0]), hr2d_solution_field(s[1]),
+                    hr2d_solution_field_size(s[0]) * sizeof(double)));
+  ck_assert_uint_eq(account[0].kernels, account[1].kernels);
+  ck_assert_uint_eq(account[0].links, account[1].links);
+  ck_assert_uint_eq(account[0].elements, account[1].elements);
+  ck_assert(account[0].average.bound == account[1].average.bound);
+  const hr2d_solve_work w = hr2d_solution_work(s[0]), v = hr2d_solution_work(s[1]);
+  ck_assert_uint_eq(w.gathers, v.gathers);
+  ck_assert_uint_eq(w.row_sums, v.row_sums);
+  for (int k = 0; k < 2; k++) {
+    hr2d_solution_destroy(s[k]);
+    hr2d_scene_destroy(scene[k]);
+  }
+}
+
+START_TEST(no_gas_changes_no_bit) {
+  const room r = {ELL, {1, 0, 0, 0, 0, 0}, {.2, .5, .8, .3, .9, .4}, 0, 3, HR2D_SECTION_LONG};
+  hr2d_gas gas = gas_of(&r);
+  expect_same(&r, &gas, 0);
+  expect_same(&r, &gas, 1);
+  expect_same(&r, NULL, 1);
+  /* negative control: a little gas changes some */
+  room thin = r;
+  thin.kappa = 1e-6;
+  hr2d_account account;
+  hr2d_scene *scene = draw(&thin), *clear = draw(&r);
+  hr2d_solution *s = solve_to(scene, 1e-9, 1, &account),
+                *t = solve_to(clear, 1e-9, 1, &account);
+  ck_assert(hr2d_solution_average(s, 2, 0) != hr2d_solution_average(t, 2, 0));
+  hr2d_solution_destroy(s);
+  hr2d_solution_destroy(t);
+  hr2d_scene_destroy(scene);
+  hr2d_scene_destroy(clear);
+}
+END_TEST
+
+START_TEST(threads_change_no_bit) {
+  const room *r = &known[6].room;
+  room grey = *r;
+  for (size_t w = 0; w < grey.walls; w++) grey.reflectance[w] = 0.5;
+  hr2d_account account;
+  hr2d_scene *scene = draw(&grey);
+  hr2d_solution *one = solve_to(scene, 1e-10, 1, &account);
+  hr2d_solution *four = solve_to(scene, 1e-10, 4, &account);
+  ck_assert_uint_eq(hr2d_solution_field_size(one), hr2d_solution_field_size(four));
+  ck_assert(!memcmp(hr2d_solution_field(one), hr2d_solution_field(four),
+                    hr2d_solution_field_size(one) * sizeof(double)));
+  ck_assert(gas_heat(one) == gas_heat(four));
+  hr2d_solution_destroy(one);
+  hr2d_solution_destroy(four);
+  hr2d_scene_destroy(scene);
+}
+END_TEST
+
+TEST_SUITE("gas") {
+  ADD_TESTS("values", rooms_of_independent_programs, bounds_hold_at_every_target,
+            open_scenes_end_in_gas);
+  ADD_TESTS("balance", equilibrium_is_exact_on_any_elements, powers_balance);
+  ADD_TESTS("limits", thin_gas_emits_by_its_volume,
+            thin_gas_between_white_walls_keeps_its_digits, thick_gas_is_a_black_body);
+  ADD_TESTS("bits", no_gas_changes_no_bit, threads_change_no_bit);
+}
