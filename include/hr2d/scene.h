@@ -400,7 +400,8 @@ HR2D_API double hr2d_scene_transmittance(const hr2d_scene *scene, size_t patch, 
  * The other side of a pane.
  * @param scene  committed; before, nobody knows it
  * @param patch  the index of a patch
- * @return the patch on the other side; `patch` itself unless it is a side of a pane
+ * @return the patch on the other side; `patch` itself unless it is a side of a pane;
+ *         #HR2D_NO_ELEMENT without such a patch
  */
 HR2D_API size_t hr2d_scene_other_side(const hr2d_scene *scene, size_t patch);
 

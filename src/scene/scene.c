@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The scene object: adding patches, committing, reading back. */
+#include <hr2d/hierarchy.h>
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -424,7 +425,7 @@ double hr2d_scene_transmittance(const hr2d_scene *scene, size_t patch, size_t ba
 }
 
 size_t hr2d_scene_other_side(const hr2d_scene *scene, size_t patch) {
-  return hr2di_scene_has(scene, patch) ? hr2di_scene_other_side(scene, patch) : patch;
+  return hr2di_scene_has(scene, patch) ? hr2di_scene_other_side(scene, patch) : HR2D_NO_ELEMENT;
 }
 
 double hr2d_scene_background(const hr2d_scene *scene, size_t band) {
