@@ -78,11 +78,35 @@ static size_t worst_patch(const hr2di_estimator *e, int irradiance, size_t band)
   return found;
 }
 
-/* An average of B on a pane has both sides: Z that both make has ρ + τ for ρ then, and is that
-   of either side alone or more. */
-static int is_of(const hr2di_transport *t, size_t leaf, size_t patch) {
-  const size_t own = t->hierarchy->element[t->leaf[leaf]].patch;
-  return own == patch || own == hr2di_scene_other_side(t->hierarchy->scene, patch);
+/* A row, of the worst patch for one quantity in a band.  On a pane Y for the average of B is
+   the radiosity of a source Ss on both sides, so that each quantity has a row of its own. */
+typedef struct row {
+  size_t patch;
+  int pane;
+  int choice;  /* 1: the patch is the worst one of H */
+  double unit; /* s for the average of H on the patch, 1/(A H̄); 0 if no light falls there */
+  double part; /* of Y for that of H is Y for that of B; on a pane of s */
+} row;
+
+static row row_of(const hr2di_estimator *e, int choice, size_t b) {
+  const hr2di_transport *t = &e->eq.transport;
+  const hr2d_scene *scene = t->hierarchy->scene;
+  row r = {.patch = worst_patch(e, choice, b), .choice = choice};
+  const double min_b = hr2di_estimator_min(e, 0, r.patch, b),
+               min_h = hr2di_estimator_min(e, 1, r.patch, b);
+  r.pane = hr2di_pane_is(scene, r.patch);
+  if (min_h > 0) r.unit = 1 / min_h / t->hierarchy->element[r.patch].length;
+  const double rho = r.pane ? 1 : hr2d_scene_reflectance(scene, r.patch, b);
+  if (min_b > 0) r.part = rho * (min_h / min_b);
+  return r;
+}
+
+/* What a row of B on a pane has on either side. */
+static double passed(const hr2d_scene *scene, const row *r, size_t patch, size_t b) {
+  if (patch == r->patch) return hr2d_scene_reflectance(scene, patch, b) * r->unit;
+  return patch == hr2di_scene_other_side(scene, r->patch)
+             ? hr2d_scene_transmittance(scene, patch, b) * r->unit
+             : 0;
 }
 
 /* Sets the source to 1/(A H̄) of a patch in each band. */
@@ -91,28 +115,34 @@ static void set_source(hr2di_estimator *e, int choice) {
   const hr2di_transport *t = &eq->transport;
   for (size_t k = 0; k < eq->field; k++) eq->source[k] = 0;
   for (size_t b = 0; b < t->bands; b++) {
-    const size_t patch = worst_patch(e, choice, b);
-    const double min = hr2di_estimator_min(e, 1, patch, b);
-    for (size_t leaf = 0; leaf < t->leaves && min > 0; leaf++)
-      if (is_of(t, leaf, patch))
-        eq->source[leaf * t->width + b] = 1 / min / t->hierarchy->element[patch].length;
+    const row r = row_of(e, choice, b);
+    for (size_t leaf = 0; leaf < t->leaves && r.unit > 0; leaf++) {
+      const size_t patch = t->hierarchy->element[t->leaf[leaf]].patch;
+      if (r.pane && !choice)
+        eq->source[leaf * t->width + b] = passed(t->hierarchy->scene, &r, patch, b);
+      else if (patch == r.patch)
+        eq->source[leaf * t->width + b] = r.unit;
+    }
   }
 }
 
 /* A |⟨r,Z⟩| on a leaf, for the averages of B and of H.  `left` is that of the coefficients
    below p, which the solve has left.  `high` is that of the coefficients from p on, or an upper
    bound of it if there may be kinks. */
-static void term_of(const hr2di_estimator *e, size_t leaf, size_t b, double unit,
+static void term_of(const hr2di_estimator *e, size_t leaf, size_t b, const row *r,
                     double left[2], double high[2]) {
   const hr2di_equation *eq = &e->eq;
   const hr2di_transport *t = &eq->transport;
   const double rho = hr2di_estimator_rho(e, leaf, b), area = eq->weight[leaf * t->order];
+  const int own = t->hierarchy->element[t->leaf[leaf]].patch == r->patch;
   double rest = 0, inner[2] = {0, 0};
   for (int h = 0; h < 2; h++) left[h] = high[h] = 0;
   for (size_t l = 0; l < t->order; l++) {
     const size_t k = leaf * t->width + l * t->bands + b;
-    const double s = rho > 0 ? eq->source[k] / rho : 0;
-    const double z[2] = {unit * (eq->irradiance[k] + s), eq->irradiance[k]};
+    const double s = r->pane   ? (own && l == 0 ? r->unit : 0)
+                     : rho > 0 ? eq->source[k] / rho
+                               : 0;
+    const double z[2] = {r->part * (eq->irradiance[k] + s), eq->irradiance[k]};
     for (int h = 0; h < 2; h++) {
       double *const sum = l < e->coarse->order ? left : inner;
       sum[h] += z[h] * e->residual[k];
@@ -130,13 +160,13 @@ static void term_of(const hr2di_estimator *e, size_t leaf, size_t b, double unit
    roots of the sums of squares.  The last solve gave Y for the average of H; Y for that of B is
    this times a factor, ρH̄/B̄ of the patch of the row.
  */
-static void sum_row(hr2di_estimator *e, size_t b, double unit, double sum[2],
+static void sum_row(hr2di_estimator *e, size_t b, const row *r, double sum[2],
                     double scatter[2]) {
   const hr2di_transport *t = &e->eq.transport;
   for (int h = 0; h < 2; h++) sum[h] = scatter[h] = 0;
   for (size_t leaf = 0; leaf < t->leaves && !hr2di_estimator_stopped(e); leaf++) {
     double left[2], high[2];
-    term_of(e, leaf, b, unit, left, high);
+    term_of(e, leaf, b, r, left, high);
     for (int h = 0; h < 2; h++) {
       sum[h] += left[h] + high[h];
       scatter[h] = hypot(scatter[h], high[h]);
@@ -166,19 +196,17 @@ hr2d_status hr2di_unsigned_row(hr2di_estimator *e) {
 
 /* Raises the sums of B and of H by those of the patches chosen for one of them. */
 static hr2d_status sum_rows(hr2di_estimator *e, int choice) {
-  const hr2d_scene *scene = e->eq.transport.hierarchy->scene;
   const size_t bands = e->eq.transport.bands;
   set_source(e, choice);
   const hr2d_status status = hr2di_unsigned_row(e);
   set_source(e, choice);
   for (size_t b = 0; b < bands && !status; b++) {
-    const size_t patch = worst_patch(e, choice, b);
-    const double min = hr2di_estimator_min(e, 0, patch, b);
-    const double ratio = hr2di_estimator_min(e, 1, patch, b) / min;
+    const row r = row_of(e, choice, b);
     double sum[2], scatter[2];
-    sum_row(e, b, min > 0 ? hr2di_pane_scattered(scene, patch, b) * ratio : 0, sum, scatter);
+    sum_row(e, b, &r, sum, scatter);
     for (int h = 0; h < 2; h++) {
       const size_t at = (size_t)h * bands + b;
+      if (r.pane && h != choice) continue;
       e->safe[at] = fmax(e->safe[at], sum[h]);
       e->scatter[at] = fmax(e->scatter[at], scatter[h]);
     }
@@ -186,10 +214,13 @@ static hr2d_status sum_rows(hr2di_estimator *e, int choice) {
   return status;
 }
 
-/* Whether the worst averages of B and of H are those of the same patches. */
+/* Whether the worst averages of B and of H are those of the same patches, and one row does. */
 static int same_choice(const hr2di_estimator *e) {
-  for (size_t b = 0; b < e->eq.transport.bands; b++)
-    if (worst_patch(e, 0, b) != worst_patch(e, 1, b)) return 0;
+  const hr2d_scene *scene = e->eq.transport.hierarchy->scene;
+  for (size_t b = 0; b < e->eq.transport.bands; b++) {
+    const size_t patch = worst_patch(e, 0, b);
+    if (patch != worst_patch(e, 1, b) || hr2di_pane_is(scene, patch)) return 0;
+  }
   return 1;
 }
 

@@ -218,6 +218,40 @@ static void pieces(adv_scene *scene, adv_random *r) {
   adv_paint(scene, r, 0.8);
 }
 
+/* One or two partitions through which light passes, and screens, some of them panes. */
+static void panes(adv_scene *scene, adv_random *r) {
+  double w, h;
+  scene->bands = adv_chance(r, 0.3) ? 2 : 1;
+  adv_room(scene, r, &w, &h);
+  int n = adv_int(r, 1, 2);
+  for (int k = 1; k <= n; k++) {
+    double x = w * (k + adv_real(r, -0.2, 0.2)) / (n + 1);
+    double y = adv_chance(r, 0.5) ? x : x + adv_real(r, -0.2, 0.2);
+    adv_screen(scene, x, 0, y, adv_chance(r, 0.8) ? h : h / 2);
+  }
+  const size_t screens = scene->count;
+  adv_screens(scene, r, adv_int(r, 0, 2), (const double[4]){0, 0, w, h}, 0.25, 1.5);
+  adv_paint(scene, r, 0.9);
+  for (size_t k = 4; k + 1 < scene->count; k += 2)
+    if (k < screens || adv_chance(r, 0.5)) adv_pane(scene, r, k, adv_chance(r, 0.2) ? 1 : 0.95);
+}
+
+/* The same light with panes that absorb nothing, or let all of it through. */
+static void frosted(adv_scene *scene, adv_random *r) {
+  double w, h;
+  adv_room(scene, r, &w, &h);
+  double x = w * adv_real(r, 0.2, 0.8);
+  adv_screen(scene, x, 0, x, h);
+  adv_paint(scene, r, 0.9);
+  double tau = adv_chance(r, 0.3) ? 1 : adv_int(r, 1, 63) / 64.0;
+  for (size_t k = 4; k < 6; k++) {
+    scene->patch[k].transmittance[0] = tau;
+    scene->patch[k].reflectance[0] = 1 - tau;
+    scene->patch[k].emission[0] = 0;
+  }
+  scene->patch[0].emission[0] = 1;
+}
+
 const adv_kind adv_rooms[] = {
     {"convex", convex, "convex rooms of 3 to 8 walls"},
     {"round", round_room, "rooms of 12 to 32 walls"},
@@ -236,4 +270,6 @@ const adv_kind adv_rooms[] = {
     {"ring", ring, "a column in a round room"},
     {"enfilade", enfilade, "rooms in a row, with doors"},
     {"pieces", pieces, "walls of many pieces on one line"},
+    {"panes", panes, "partitions and screens through which light passes"},
+    {"frosted", frosted, "a partition that absorbs nothing"},
     {NULL, NULL, NULL}};

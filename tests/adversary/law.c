@@ -202,7 +202,7 @@ static void furnace_is_even(adv_trial *trial) {
   *copy = *trial->scene;
   for (size_t band = 0; band < copy->bands; band++) {
     for (size_t k = 0; k < copy->count; k++)
-      copy->patch[k].emission[band] = 1 - copy->patch[k].reflectance[band];
+      copy->patch[k].emission[band] = 1 - adv_scattered(&copy->patch[k], band);
     copy->background[band] = adv_int(&trial->random, 0, 1) / 2.0;
   }
   transform(trial, copy);
@@ -249,7 +249,7 @@ static void widen_for_narrow_sky(const adv_scene *scene, adv_claims *claims) {
   double n = (double)scene->count, max = 0;
   double across = ldexp(hypot((double)(e.high[0] - e.low[0]), (double)(e.high[1] - e.low[1])),
                         scene->exponent);
-  for (size_t k = 0; k < scene->count; k++) max = fmax(max, scene->patch[k].reflectance[0]);
+  for (size_t k = 0; k < scene->count; k++) max = fmax(max, adv_scattered(&scene->patch[k], 0));
   for (size_t k = 0; k < scene->count; k++) {
     double length = adv_length(scene, k);
     double own =

@@ -31,6 +31,10 @@ static void write_patch(FILE *file, const adv_scene *scene, size_t k) {
   write_values(file, "emission", p->emission, scene->bands);
   fprintf(file, ", ");
   write_values(file, "reflectance", p->reflectance, scene->bands);
+  if (adv_is_pane(scene, k)) {
+    fprintf(file, ", ");
+    write_values(file, "transmittance", p->transmittance, scene->bands);
+  }
   fprintf(file, "}, ");
   write_line(file, scene, p->x, p->y);
 }

@@ -98,6 +98,26 @@ void adv_reflect(adv_patch *patch, double reflectance) {
   for (size_t band = 0; band < ADV_BANDS; band++) patch->reflectance[band] = reflectance;
 }
 
+void adv_pane(adv_scene *scene, adv_random *r, size_t front, double max) {
+  for (size_t band = 0; band < scene->bands; band++) {
+    double tau = adv_chance(r, 0.15) ? 0 : floor(adv_real(r, 0, max) * 64) / 64;
+    for (size_t side = front; side < front + 2; side++) {
+      scene->patch[side].transmittance[band] = tau;
+      scene->patch[side].reflectance[band] = floor(adv_real(r, 0, max - tau) * 64) / 64;
+    }
+  }
+}
+
+int adv_is_pane(const adv_scene *scene, size_t patch) {
+  for (size_t band = 0; band < scene->bands; band++)
+    if (scene->patch[patch].transmittance[band] > 0) return 1;
+  return 0;
+}
+
+double adv_scattered(const adv_patch *patch, size_t band) {
+  return patch->reflectance[band] + patch->transmittance[band];
+}
+
 adv_extent adv_extent_of(const adv_scene *scene) {
   adv_extent e = {{INT64_MAX, INT64_MAX}, {INT64_MIN, INT64_MIN}};
   for (size_t k = 0; k < scene->count; k++)
@@ -200,6 +220,8 @@ hr2d_status adv_build(const adv_scene *scene, hr2d_scene **built) {
     patch.emission = p->emission;
     patch.reflectance = p->reflectance;
     patch.emission_bands = patch.reflectance_bands = scene->bands;
+    patch.transmittance = p->transmittance;
+    patch.transmittance_bands = adv_is_pane(scene, k) ? scene->bands : 0;
     status = hr2d_scene_add(*built, &patch, NULL);
   }
   if (!status) status = hr2d_scene_set_background(*built, scene->background, scene->bands);

@@ -20,6 +20,7 @@
 typedef struct adv_patch {
   int64_t x[2], y[2]; /* start and end, in steps of 2^exponent; the front is on the left */
   double emission[ADV_BANDS], reflectance[ADV_BANDS];
+  double transmittance[ADV_BANDS]; /* of a pane, whose other side has the same */
   int source;      /* the patch of the original of which this is a part; -1: none */
   double from, to; /* the fractions of the original at which the ends are */
 } adv_patch;
@@ -81,6 +82,14 @@ void adv_paint(adv_scene *scene, adv_random *r, double max);
 
 /* Sets the reflectance of a patch in all bands. */
 void adv_reflect(adv_patch *patch, double reflectance);
+
+/* Makes a pane of patch `front` and the one behind it, after adv_paint(): no more is scattered
+   than `max`. */
+void adv_pane(adv_scene *scene, adv_random *r, size_t front, double max);
+
+/* Whether a patch is a side of a pane in some band; what it scatters in one, ρ + τ. */
+int adv_is_pane(const adv_scene *scene, size_t patch);
+double adv_scattered(const adv_patch *patch, size_t band);
 
 /* A mirror, by two points. */
 void adv_mirror(adv_scene *scene, double ax, double ay, double bx, double by);

@@ -162,7 +162,7 @@ void adv_allow_images(adv_scene *scene) {
   for (size_t b = 0; b < scene->bands && oblique; b++) {
     light = fmax(light, adv_outside(scene, b));
     for (size_t k = 0; k < scene->count; k++) {
-      max = fmax(max, scene->patch[k].reflectance[b]);
+      max = fmax(max, adv_scattered(&scene->patch[k], b));
       light = fmax(light, scene->patch[k].emission[b]);
     }
   }

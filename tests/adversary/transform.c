@@ -22,7 +22,7 @@ static void turn_sky(adv_scene *scene, int a, int b) {
   for (size_t band = 0; band < scene->bands && a && b; band++) {
     double max = 0, light = 0;
     for (size_t k = 0; k < scene->count; k++)
-      max = fmax(max, scene->patch[k].reflectance[band]);
+      max = fmax(max, adv_scattered(&scene->patch[k], band));
     for (size_t k = 0; k < scene->pieces; k++)
       light += scene->background[band] + 2 * scene->piece[k].value[band];
     off = fmax(off, 0x1p-48 * light / (1 - max));
@@ -175,13 +175,15 @@ static int cut(adv_scene *scene, size_t patch, int64_t parts, int levels) {
   return 1;
 }
 
-/* Cuts at random places, or towards an end by halves. */
+/* Cuts at random places, or towards an end by halves; not panes, of which both sides would have
+   to be cut. */
 static int split(adv_scene *scene, adv_random *r) {
   int done = 0;
   size_t patches = scene->count;
   for (int n = adv_int(r, 1, 4); n > 0; n--) {
     size_t k = (size_t)adv_int(r, 0, (int)patches - 1);
     int levels = adv_int(r, 1, 4), graded = adv_chance(r, 0.3);
+    if (adv_is_pane(scene, k)) continue;
     done |= cut(scene, k, graded ? 1 : adv_int(r, 1, (1 << levels) - 1), levels);
   }
   return done;
