@@ -187,11 +187,15 @@ hr2d_status hr2di_search_bound(hr2di_search *s) {
 }
 
 /* Whether an attempt with this error replaces the best one.  A divided mesh may do so with a
-   somewhat larger error, but not with a deadline: there may be no time for another attempt. */
-static int is_better(const hr2di_search *s, double error, int divided) {
+   somewhat larger error, but not with a deadline: there may be no time for another attempt.
+   Selected events show more of the error than whole patches, so that the estimate may rise. */
+static int is_better(const hr2di_search *s, const hr2di_resolution *fineness, double error,
+                     int divided) {
+  const int shows_more =
+      fineness->kinks > 0 && fineness->a_posteriori && !(s->fineness.kinks > 0);
   const double before = hr2di_search_error(s);
   const double max = divided && !(s->deadline > 0) ? HR2DI_CHOICE_VARIES * before : before;
-  return !s->best.solution || !isfinite(before) || error < max;
+  return !s->best.solution || !isfinite(before) || shows_more || error < max;
 }
 
 hr2d_status hr2di_search_attempt(hr2di_search *s, const hr2di_resolution *fineness,
@@ -215,7 +219,7 @@ hr2d_status hr2di_search_attempt(hr2di_search *s, const hr2di_resolution *finene
     s->fineness = *fineness;
   } else if (!status) {
     const double error = worst_of(&errors, s->target.norm).estimate;
-    if (is_better(s, error, dividing)) {
+    if (is_better(s, fineness, error, dividing)) {
       keep(s, &answer, &errors);
       s->fineness = *fineness;
     }

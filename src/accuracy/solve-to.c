@@ -22,11 +22,9 @@ static void give_reason(hr2di_search *s, const char *reason) {
   hr2di_message_copy(s->account.reason, sizeof s->account.reason, reason);
 }
 
-/* The resolution to begin with: no coarser than the best one so far, which was not enough. */
-static hr2di_resolution first_resolution(hr2di_search *s, double error) {
+static hr2di_resolution guess_resolution(hr2di_search *s, double error) {
   hr2di_resolution guess = hr2di_strategy_for(s->scene, &s->survey, error, &s->given,
                                               s->lights.radiosity ? &s->lights : NULL);
-  hr2di_resolution finer = s->fineness;
   guess.beam_cache = hr2di_search_beam_cache(s);
   guess.skip_bound = !(s->given.seconds > 0); /* there is time for a bound at the end */
   /* Under a background of their own temperature scenes are isothermal to all digits. */
@@ -35,6 +33,13 @@ static hr2di_resolution first_resolution(hr2di_search *s, double error) {
     guess.relative = hr2di_strategy_tolerance(s->scene, 1, error);
     guess.floor = s->given.floor;
   }
+  return guess;
+}
+
+/* The resolution to begin with: no coarser than the best one so far, which was not enough. */
+static hr2di_resolution first_resolution(hr2di_search *s, double error) {
+  const hr2di_resolution guess = guess_resolution(s, error);
+  hr2di_resolution finer = s->fineness;
   const int known = s->best.solution && isfinite(hr2di_search_error(s));
   const int is_finer =
       known &&
@@ -64,6 +69,21 @@ static void give_cut_off(hr2di_search *s) {
   give_reason(s, text);
 }
 
+/* Lights after the first solve.  The survey that they bring is not needed: corners are left to
+   indicators. */
+static hr2d_status find_lights(hr2di_search *s) {
+  hr2di_survey survey = s->survey;
+  return hr2di_search_agree(s,
+                            hr2di_importance(s->scene, &s->target, hr2di_search_beam_cache(s),
+                                             &s->lights, &survey, &s->message));
+}
+
+/* Whether selected events are to show what whole patches hide; an operator is for any light. */
+static int wants_lights(const hr2di_search *s, const hr2di_resolution *fineness) {
+  return !s->lights.radiosity && !s->keeps_operator && !s->given.no_error && s->best.solution &&
+         hr2di_strategy_wants_lights_of(s->best.solution, &s->given, fineness);
+}
+
 /* Goes finer until the error is below `error`; HR2D_EACCURACY if it does not come down. */
 static hr2d_status reach(hr2di_search *s, double error) {
   if (s->best.solution && hr2di_search_reached(s, error)) return HR2D_OK;
@@ -79,6 +99,14 @@ static hr2d_status reach(hr2di_search *s, double error) {
         fineness.order < HR2DI_CHOICE_SAFE_ORDER) {
       fineness.order++;
       continue;
+    }
+    if (k == 0 && !status && wants_lights(s, &fineness)) {
+      const hr2d_status found = find_lights(s);
+      if (found) return found;
+      if (s->lights.radiosity) {
+        fineness = guess_resolution(s, error);
+        continue;
+      }
     }
     if (status || s->given.no_error || hr2di_search_reached(s, error)) return status;
     if (hr2di_search_is_cut_off(s, error)) break;

@@ -8,8 +8,10 @@
 #include <math.h>
 
 #include "base/choices.h"
+#include "estimate/importance.h"
 #include "geometry/bernstein-ellipse.h"
 #include "scene/scene-impl.h"
+#include "solution/solution-impl.h"
 #include "solve/external-irradiance.h"
 
 #define EASY 0.06
@@ -69,6 +71,16 @@ int hr2di_strategy_wants_lights(const hr2d_scene *scene, const hr2d_target *targ
          !by_shares(scene, target, target->error);
 }
 
+/* Of a patch that gets little light past the ends of others, kinks on the patches that send it
+   make much, and whole patches show nothing of that: few patches have few events to choose
+   from. The first solve tells how dark patches are. */
+int hr2di_strategy_wants_lights_of(const hr2d_solution *solution, const hr2d_target *target,
+                                   const hr2di_resolution *fineness) {
+  return fineness->a_posteriori && !fineness->many_patches &&
+         !solution->hierarchy->scene->effect[HR2D_EFFECT_BACKGROUND].on &&
+         hr2di_least_irradiance(solution, target) < HR2DI_CHOICE_DIM;
+}
+
 /* What shares of leaves may add up to.  They are without signs and of all n patches together.
    Of the error of one patch they are a part of about 1/n where light goes everywhere, and signs
    of as many leaves at least take about √n of that.  Few patches may be rooms in a row, where
@@ -122,7 +134,7 @@ hr2di_resolution hr2di_strategy_for(const hr2d_scene *scene, const hr2di_survey 
                                     const hr2di_primal_dual *lights) {
   const hr2d_norm norm = target->norm;
   const int shared = by_shares(scene, target, aim);
-  if (shared) lights = NULL;
+  if (shared && is_crowded(scene, is_hidden(scene))) lights = NULL;
   const double many =
       is_crowded(scene, is_hidden(scene)) && lights ? HR2DI_CHOICE_MANY_PARTS : 1;
   const double error = aim * fmax(survey->exponent * survey->exponent, 1e-3);

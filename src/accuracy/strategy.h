@@ -14,6 +14,10 @@ hr2d_status hr2di_strategy_survey(const hr2d_scene *scene, hr2di_beam_cache *bea
 /* Whether lights of patches help: to choose events for a target of averages. */
 int hr2di_strategy_wants_lights(const hr2d_scene *scene, const hr2d_target *target);
 
+/* The same for a target that begins without, after its first solve. */
+int hr2di_strategy_wants_lights_of(const hr2d_solution *solution, const hr2d_target *target,
+                                   const hr2di_resolution *fineness);
+
 /* A first guess at the resolution for an error in the norm of a target; with lights of patches,
    or NULL. */
 hr2di_resolution hr2di_strategy_for(const hr2d_scene *scene, const hr2di_survey *survey,

@@ -253,7 +253,8 @@ static hr2d_status run(hr2di_finer *f, hr2di_graded *answer, const hr2di_resolut
   hr2di_clusters *coarser = answer->links->roots.clusters;
   hr2d_status status = hr2di_estimator_take(e, answer->solution);
   if (!status) status = measure_averages(e, errors);
-  const int shares = fineness->a_posteriori && !answer->unresolved_jump;
+  const int shares =
+      fineness->a_posteriori && !(fineness->many_patches && answer->unresolved_jump);
   const double seen = status ? 0 : worst_of(errors);
   answer->unbounded =
       !status && shares && fineness->skip_bound && is_too_large(errors, fineness);

@@ -103,6 +103,19 @@ static double contrast_of(const hr2d_solution *solution, average_of *average,
   return lower;
 }
 
+double hr2di_least_irradiance(const hr2d_solution *solution, const hr2d_target *target) {
+  const hr2d_scene *scene = solution->hierarchy->scene;
+  double least = 1;
+  for (size_t b = 0; b < scene->bands; b++) {
+    const double max = largest(solution, hr2d_solution_irradiance, b);
+    for (size_t k = 0; k < hr2di_scene_cell(scene); k++) {
+      const double is = hr2d_solution_irradiance(solution, k, b);
+      if (is > 0 && hr2di_is_important(target, k)) least = fmin(least, is / max);
+    }
+  }
+  return least;
+}
+
 static hr2d_status set_lights(hr2di_equation *eq, const hr2d_solution *solution,
                               const hr2d_target *target, const wanted *w,
                               hr2di_primal_dual *lights) {

@@ -8,6 +8,10 @@
 /* Whether the averages of a patch count for a target of hr2di_target_init(); O(log n). */
 int hr2di_is_important(const hr2d_target *target, size_t patch);
 
+/* The least average of H that counts and is larger than 0, relative to the largest of its band.
+ */
+double hr2di_least_irradiance(const hr2d_solution *solution, const hr2d_target *target);
+
 /* Sets `lights` from a coarse solve: B of elements and ρψ, with ψ = Σ ψ_i/a_i over the
    important averages a_i of B and of H, which count as no less than the floor of the target.
    `survey` receives what the elements of that solve say of the scene; it is unchanged where

@@ -27,7 +27,7 @@ typedef struct hr2di_resolution {
   int many_patches;       /* it has very many */
   unsigned generations;   /* elements end at events of so many generations */
   int a_posteriori; /* if the error is too large, find the elements that cause it, unless events
-                       were selected */
+                       were selected for very many patches */
   int skip_bound;   /* then measure neither a bound nor the errors at points */
   double kinks;     /* the error that events left inside elements may cause; 0:
                        elements end at all events */
