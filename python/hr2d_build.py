@@ -15,6 +15,7 @@ from cffi import FFI
 HELPERS = r"""
 typedef double (*hr2dpy_scene_getter)(const hr2d_scene *, size_t patch, size_t band);
 typedef double (*hr2dpy_getter)(const hr2d_solution *, size_t patch, size_t band);
+typedef double (*hr2dpy_enclosure_getter)(const hr2d_enclosure *, size_t patch, size_t band);
 typedef double (*hr2dpy_point_getter)(const hr2d_solution *, size_t patch, double t,
                                       size_t band);
 hr2d_status hr2dpy_poll(void *ctx, const hr2d_progress *progress);
@@ -25,6 +26,8 @@ void hr2dpy_sunlight(const hr2d_scene *scene, size_t patch, const double *t, siz
 void hr2dpy_sky(const hr2d_scene *scene, const double *bearing, size_t count, double *value);
 void hr2dpy_values(hr2dpy_getter get, const hr2d_solution *solution, size_t patches,
                    size_t bands, double *value);
+void hr2dpy_ends(hr2dpy_enclosure_getter get, const hr2d_enclosure *enclosure, size_t patches,
+                 size_t bands, double *value);
 void hr2dpy_point_values(hr2dpy_point_getter get, const hr2d_solution *solution, size_t patch,
                          const double *t, size_t count, size_t bands, double *value);
 void hr2dpy_element_values(const hr2d_solution *solution, size_t elements, size_t bands,
@@ -35,6 +38,9 @@ void hr2dpy_element_values(const hr2d_solution *solution, size_t elements, size_
 CALLBACKS = """
 hr2d_status hr2dpy_progress(void *, const hr2d_progress *);
 hr2d_status hr2dpy_warn(void *, const hr2d_warning *);
+hr2d_status hr2dpy_row(void *, const hr2d_field_row *);
+hr2d_status hr2dpy_write(void *, const void *, size_t);
+hr2d_status hr2dpy_read(void *, void *, size_t);
 hr2d_status hr2dpy_estimate(void *, const hr2d_batch *, double *);
 hr2d_status hr2dpy_acceptable(void *, const hr2d_batch *, const double *, unsigned char *);
 hr2d_status hr2dpy_recursion_limit(void *, const hr2d_batch *, unsigned char *);
@@ -95,6 +101,12 @@ void hr2dpy_values(hr2dpy_getter get, const hr2d_solution *solution, size_t patc
                    size_t bands, double *value) {
   for (size_t k = 0; k < patches; k++)
     for (size_t band = 0; band < bands; band++) *value++ = get(solution, k, band);
+}
+
+void hr2dpy_ends(hr2dpy_enclosure_getter get, const hr2d_enclosure *enclosure, size_t patches,
+                 size_t bands, double *value) {
+  for (size_t k = 0; k < patches; k++)
+    for (size_t band = 0; band < bands; band++) *value++ = get(enclosure, k, band);
 }
 
 void hr2dpy_point_values(hr2dpy_point_getter get, const hr2d_solution *solution, size_t patch,

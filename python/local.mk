@@ -7,14 +7,18 @@ EXTRA_DIST += \
 	python/hr2d/_arrays.py \
 	python/hr2d/_calls.py \
 	python/hr2d/_draw.py \
+	python/hr2d/_enclosure.py \
 	python/hr2d/_errors.py \
 	python/hr2d/_geojson.py \
+	python/hr2d/_hr2d.pyi \
 	python/hr2d/_law.py \
 	python/hr2d/_links.py \
+	python/hr2d/_points.py \
 	python/hr2d/_scene.py \
 	python/hr2d/_solution.py \
 	python/hr2d/_operator.py \
 	python/hr2d/_solve.py \
+	python/hr2d/_state.py \
 	python/hr2d/_strategy.py \
 	python/hr2d/py.typed \
 	python/hr2d_backend.py \
@@ -23,8 +27,10 @@ EXTRA_DIST += \
 	python/setup.py \
 	python/tests/conftest.py \
 	python/tests/test_callbacks.py \
+	python/tests/test_complete.py \
 	python/tests/test_daylight.py \
 	python/tests/test_symmetry.py \
+	python/tests/test_documentation.py \
 	python/tests/test_draw.py \
 	python/tests/test_drawings.py \
 	python/tests/test_law.py \
@@ -32,7 +38,8 @@ EXTRA_DIST += \
 	python/tests/test_links.py \
 	python/tests/test_operator.py \
 	python/tests/test_solve.py \
-	python/tests/test_thermal.py
+	python/tests/test_thermal.py \
+	python/tests/typed_example.py
 
 # `make wheel` makes wheel/hr2d-*.whl, which carries the library, GSL and jansson, from the objects of
 # the shared library.  tests/package/check-wheel.sh installs and tests it.

@@ -21,23 +21,27 @@ except ImportError as error:
     raise ImportError(f"{error}: run ldconfig if it is installed, or set LD_LIBRARY_PATH to its "
                       "folder; a wheel made by `make wheel` needs no libhr2d") from None
 from ._calls import Progress
+from ._enclosure import Enclosure
 from ._errors import (AccuracyError, AccuracyWarning, CallbackError, Error, FileError,
                       FormatError, InvalidArgument, LimitReached, NoSolution, NotConverged,
                       OutOfMemory, RangeError, SceneError, StateError, Stopped, Unsupported)
 from ._law import Law, Term
 from ._links import Fit, Links, Study
 from ._operator import Gradient, Lights, Operator
-from ._scene import Scene, SceneWarning, Snap, Sun, exchange_area, read
-from ._solution import Account, Bounded, Field, Points, Power, Solution, Temperatures
+from ._scene import Scene, SceneWarning, Snap, Sun, black_body, exchange_area, read
+from ._points import PointFactors
+from ._solution import Account, Bounded, Field, Grid, Points, Power, Solution, Temperatures
+from ._solve import Prediction
 from ._strategy import SPLIT_BOTH, SPLIT_FIRST, SPLIT_SECOND, Batch, Oracle, Policy
 
 __version__: str = _ffi.string(_lib.hr2d_version()).decode()
 
 __all__ = [
-    "Account", "AccuracyError", "AccuracyWarning", "Batch", "Bounded", "CallbackError", "Error",
-    "Field", "FileError", "Fit", "FormatError", "Gradient", "InvalidArgument", "Law", "Lights",
-    "LimitReached", "Links", "NoSolution", "NotConverged", "Operator", "Oracle", "OutOfMemory",
-    "Points", "Policy", "Power", "Progress", "RangeError", "SPLIT_BOTH", "SPLIT_FIRST",
-    "SPLIT_SECOND", "Scene", "SceneError", "SceneWarning", "Snap", "Solution", "StateError",
-    "Stopped", "Study", "Sun", "Temperatures", "Term", "Unsupported", "exchange_area", "read",
+    "Account", "AccuracyError", "AccuracyWarning", "Batch", "Bounded", "CallbackError",
+    "Enclosure", "Error", "Field", "FileError", "Fit", "FormatError", "Gradient", "Grid",
+    "InvalidArgument", "Law", "Lights", "LimitReached", "Links", "NoSolution", "NotConverged",
+    "Operator", "Oracle", "OutOfMemory", "PointFactors", "Points", "Policy", "Power",
+    "Prediction", "Progress", "RangeError", "SPLIT_BOTH", "SPLIT_FIRST", "SPLIT_SECOND",
+    "Scene", "SceneError", "SceneWarning", "Snap", "Solution", "StateError", "Stopped", "Study",
+    "Sun", "Temperatures", "Term", "Unsupported", "black_body", "exchange_area", "read",
 ]

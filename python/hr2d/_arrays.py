@@ -5,8 +5,11 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from ._hr2d import ffi
+
+Array = npt.NDArray[Any]
 
 ELEMENT = np.dtype({
     "names": ["a", "b", "centre", "length", "child", "patch"],
@@ -18,17 +21,17 @@ ELEMENT = np.dtype({
 """An element of a hierarchy.  Coordinates are in units of Scene.unit."""
 
 
-def doubles(array: np.ndarray) -> Any:
+def doubles(array: Array) -> Any:
     """The numbers of a contiguous array as `double *`, not copied."""
     return ffi.from_buffer("double[]", array) if array.size else ffi.NULL
 
 
-def writable(array: np.ndarray) -> Any:
+def writable(array: Array) -> Any:
     """As doubles(), to be written."""
     return ffi.from_buffer("double[]", array, require_writable=True) if array.size else ffi.NULL
 
 
-def view(pointer: Any, dtype: Any, count: int, owner: Any) -> np.ndarray:
+def view(pointer: Any, dtype: Any, count: int, owner: Any) -> Array:
     """An array over memory of the library that lives as long as `owner`; not copied."""
     dtype = np.dtype(dtype)
     if count == 0:
@@ -39,13 +42,13 @@ def view(pointer: Any, dtype: Any, count: int, owner: Any) -> np.ndarray:
     return array
 
 
-def copied(pointer: Any, dtype: Any, count: int) -> np.ndarray:
+def copied(pointer: Any, dtype: Any, count: int) -> Array:
     """A copy of memory that is valid during a callback only."""
     dtype = np.dtype(dtype)
     return np.frombuffer(ffi.buffer(pointer, count * dtype.itemsize), dtype).copy()
 
 
-def frozen(array: np.ndarray) -> np.ndarray:
+def frozen(array: Array) -> Array:
     """An array that may be handed out more than once."""
     array.flags.writeable = False
     return array

@@ -94,7 +94,7 @@ def constant(name: str) -> float:
     value = ffi.new("double *")
     with Call() as call:
         call.check(lib.hr2d_constant(name.encode(), value))
-    return value[0]
+    return float(value[0])
 
 
 ALL_THREADS = int(constant("HR2D_ALL_THREADS"))

@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import html
+from importlib import import_module
 from typing import Any, List, Tuple
 
 import numpy as np
+
+from ._arrays import Array
 
 ROWS = 12
 """A table in a notebook has at most so many patches."""
 
 
-def _strokes(scene: Any, points: int, shift: float) -> Tuple[np.ndarray, np.ndarray]:
+def _strokes(scene: Any, points: int, shift: float) -> Tuple[Array, Array]:
     """Each patch as points − 1 pieces, moved to the side of its front: (n, pieces, 2, 2)."""
     ends = scene.segments
     along = ends[:, 1] - ends[:, 0]
@@ -21,7 +24,7 @@ def _strokes(scene: Any, points: int, shift: float) -> Tuple[np.ndarray, np.ndar
     return np.stack([line[:, :-1], line[:, 1:]], axis=2), (t[1:] + t[:-1]) / 2
 
 
-def _colours(scene: Any, solution: Any, t: np.ndarray, band: int) -> np.ndarray:
+def _colours(scene: Any, solution: Any, t: Array, band: int) -> Array:
     return np.stack([solution.at(k, t, gather=False).B[:, band] for k in range(len(scene))])
 
 
@@ -47,14 +50,14 @@ def _fill(ax: Any, scene: Any, solution: Any, band: int, filled: int, like: Any)
 
 def plot(scene: Any, solution: Any, ax: Any, band: int, cmap: Any, points: int, labels: bool,
          colorbar: bool, filled: int) -> Any:
-    import matplotlib.pyplot as plt
-    from matplotlib.collections import LineCollection
+    plt: Any = import_module("matplotlib.pyplot")
+    collections: Any = import_module("matplotlib.collections")
 
     if solution is not None and solution.scene is not scene:
         raise ValueError("this is a solution of another scene")
     ax = plt.gca() if ax is None else ax
     pieces, t = _strokes(scene, points if solution is not None else 2, 0.006 * _extent(scene))
-    walls = LineCollection(pieces.reshape(-1, 2, 2), linewidths=3, capstyle="projecting")
+    walls = collections.LineCollection(pieces.reshape(-1, 2, 2), linewidths=3, capstyle="projecting")
     if solution is None:
         walls.set_color("0.35")
     else:
@@ -119,7 +122,7 @@ def scene_html(scene: Any) -> str:
     return f"<p>{len(scene)} patches</p>{_svg(scene)}"
 
 
-def _numbers(values: np.ndarray) -> str:
+def _numbers(values: Array) -> str:
     return " ".join(f"{value:.6g}" for value in values)
 
 

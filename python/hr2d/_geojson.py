@@ -4,12 +4,14 @@ sides, names and rings."""
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Mapping
 from typing import Any, Dict
 
 import numpy as np
 
 from ._errors import SceneError
+from ._hr2d import ffi, lib
 
 
 def _plain(value: Any) -> Any:
@@ -62,7 +64,101 @@ def text_of(shape: Any, properties: Dict[str, Any]) -> bytes:
     given = {key: value for key, value in properties.items() if value is not None}
     shape = _geometry(shape)
     if shape.get("type") == "FeatureCollection":
-        collection = {**shape, "features": [_feature(f, given) for f in shape["features"]]}
+        collection: Any = {**shape, "features": [_feature(f, given) for f in shape["features"]]}
     else:
         collection = {"type": "FeatureCollection", "features": [_feature(shape, given)]}
     return _dump(collection, given.get("name") or "a patch")
+
+
+def _plain_number(values: Any) -> Any:
+    """A number where one holds for all bands."""
+    values = [float(value) for value in values]
+    return values[0] if len(set(values)) == 1 else values
+
+
+def _texts(scene: Any) -> Any:
+    """The GeoJSON that was added; .vs2 files have nothing of what is asked for here."""
+    for name, arguments in scene._log:
+        if name == "add_text":
+            try:
+                yield json.loads(arguments[0])
+            except ValueError:
+                pass
+
+
+def _members(scene: Any) -> Dict[str, Any]:
+    """The members of "hr2d" that the library does not tell: the last ones that were given."""
+    found: Dict[str, Any] = {}
+    for text in _texts(scene):
+        given = (text.get("hr2d") if isinstance(text, dict) else None) or {}
+        found.update({key: given[key] for key in ("wavelengths", "sky", "medium")
+                      if given.get(key) is not None})
+    for name, arguments in scene._log:
+        if name == "set_wavelengths":
+            found["wavelengths"] = arguments[0].tolist()
+    return found
+
+
+def _knots(value: Any, found: Any) -> Any:
+    """Temperatures of all tables of emissivity: between them an emissivity is linear."""
+    if isinstance(value, dict):
+        table = value.get("emissivity")
+        if isinstance(table, list) and table and isinstance(table[0], list):
+            found.update(float(entry[0]) for entry in table)
+        for item in value.values():
+            _knots(item, found)
+    elif isinstance(value, list):
+        for item in value:
+            _knots(item, found)
+    return found
+
+
+def _emissivity(scene: Any, patch: int, knots: Any) -> Any:
+    bands = range(scene.bands)
+    values = [lib.hr2d_scene_emissivity(scene._raw, patch, band) for band in bands]
+    if not any(math.isnan(value) for value in values):
+        return _plain_number(values)
+    return [[kelvin] + [lib.hr2d_scene_emissivity_at(scene._raw, patch, band, kelvin)
+                        for band in bands] for kelvin in sorted(knots)]
+
+
+def _surface(scene: Any, patch: int, knots: Any) -> Dict[str, Any]:
+    given = ffi.new("double *")
+    kind = lib.hr2d_scene_heat(scene._raw, patch, given)
+    if kind == lib.HR2D_HEAT_NONE:
+        return {"emission": _plain_number(scene.emission[patch]),
+                "reflectance": _plain_number(scene.reflectance[patch])}
+    key = "temperature" if kind == lib.HR2D_HEAT_TEMPERATURE else "flux"
+    return {key: given[0], "emissivity": _emissivity(scene, patch, knots)}
+
+
+def _line(ends: Any, properties: Dict[str, Any]) -> Dict[str, Any]:
+    return {"type": "Feature", "properties": properties,
+            "geometry": {"type": "LineString", "coordinates": np.asarray(ends).tolist()}}
+
+
+def _outside(scene: Any) -> Dict[str, Any]:
+    members = _members(scene)
+    if any(scene.background):
+        members["background"] = _plain_number(scene.background)
+    if scene.period != (0, 0):
+        members["period"] = list(scene.period)
+    if any(scene.sun.irradiance):
+        members["sun"] = {"direction": [d if any(d) else [0.0, -1.0]
+                                        for d in scene.sun.direction.tolist()],
+                          "irradiance": scene.sun.irradiance.tolist()}
+    return members
+
+
+def collection_of(scene: Any) -> Dict[str, Any]:
+    """A scene as a collection: a feature for each patch and mirror."""
+    scene.commit()
+    knots: Any = set()
+    for text in _texts(scene):
+        _knots(text, knots)
+    features = [_line(ends, {"name": name, **_surface(scene, k, knots)})
+                for k, (name, ends) in enumerate(zip(scene.names, scene.segments))]
+    features += [_line(ends, {"sides": "mirror"}) for ends in scene.mirrors]
+    members = _outside(scene)
+    return {"type": "FeatureCollection", **({"hr2d": members} if members else {}),
+            "features": features}

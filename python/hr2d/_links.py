@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import Any, Dict, NamedTuple, Optional, Sequence, Union
+from importlib import import_module
+from typing import Any, Dict, List, NamedTuple, Optional, Sequence, Union
 
 import numpy as np
 
-from ._arrays import ELEMENT, doubles, frozen, view
+from ._arrays import ELEMENT, Array, doubles, frozen, view
 from ._calls import Call, ProgressFunction
 from ._hr2d import ffi, lib
 from ._law import Law, find_law
@@ -15,7 +16,7 @@ from ._strategy import OracleLike, PolicyLike
 from ._solve import empty_links, refine_options
 
 
-def _layout(struct: str, members: Dict[str, Any]) -> np.dtype:
+def _layout(struct: str, members: Dict[str, Any]) -> np.dtype[Any]:
     """A structured type of numpy for members of a struct in C, by their paths."""
     return np.dtype({
         "names": list(members),
@@ -69,12 +70,26 @@ class Links:
         return f"<hr2d.Links: {self.N} elements, {self.L} links>"
 
     @cached_property
-    def elements(self) -> np.ndarray:
+    def elements(self) -> Array:
         """All elements, as Solution.elements."""
         return view(lib.hr2d_hierarchy_elements(self._tree), ELEMENT, self.N, self._raw)
 
+    @property
+    def bytes(self) -> int:
+        """The memory of the links."""
+        return int(lib.hr2d_linkset_bytes(self._raw))
+
+    def validate(self) -> bool:
+        """Whether every transport is accounted for exactly once (paper, section 2); True, or
+        InvalidArgument says where it is not.  Of a solution to a target with many patches links
+        between clusters are lacking."""
+        with Call() as call:
+            call.check(lib.hr2d_linkset_validate(self._raw),
+                       lambda: lib.hr2d_linkset_message(self._raw))
+        return True
+
     @cached_property
-    def _links(self) -> np.ndarray:
+    def _links(self) -> Array:
         links = np.empty(self.L, _LINK)
         if self.L:
             lib.hr2d_linkset_read(self._raw, 0, self.L,
@@ -82,33 +97,33 @@ class Links:
         return frozen(links)
 
     @property
-    def pairs(self) -> np.ndarray:
+    def pairs(self) -> Array:
         """Numbers of the elements, (L, 2)."""
         return self._links["elements"]
 
     @property
-    def exchange_areas(self) -> np.ndarray:
+    def exchange_areas(self) -> Array:
         """AF of what the elements see of each other, in scene lengths, (L,)."""
         return self._links["exchange_area"]
 
     @cached_property
-    def patches(self) -> np.ndarray:
+    def patches(self) -> Array:
         """Indices of the patches; with mirrors or a period those of images, too, (L, 2)."""
         return frozen(self.elements["patch"][self.pairs].astype(np.intp))
 
     @cached_property
-    def lengths(self) -> np.ndarray:
+    def lengths(self) -> Array:
         """Of the elements, in scene lengths, (L, 2)."""
         return frozen(self.elements["length"][self.pairs] * self.scene.unit)
 
     @cached_property
-    def levels(self) -> np.ndarray:
+    def levels(self) -> Array:
         """Levels of the elements in their trees, 0 for a whole patch, (L, 2)."""
         whole = self.elements["length"][self.patches]
         return frozen(np.rint(np.log2(whole / self.elements["length"][self.pairs])).astype(int))
 
     @cached_property
-    def intervals(self) -> np.ndarray:
+    def intervals(self) -> Array:
         """Where the elements begin and end on their patches, from 0 to 1, (L, 2, 2)."""
         parts = np.ldexp(1.0, -self.levels)
         from_start = self.elements["a"][self.pairs] - self.elements["a"][self.patches]
@@ -117,19 +132,19 @@ class Links:
         return frozen(np.stack([start, start + parts], axis=-1))
 
     @cached_property
-    def kernel(self) -> np.ndarray:
+    def kernel(self) -> Array:
         """The mean of the kernel, occlusion included, in 1/scene length, (L,)."""
         return frozen(self.exchange_areas / self.lengths[:, 0] / self.lengths[:, 1])
 
     def matrix(self) -> Any:
         """AF as a scipy.sparse.coo_matrix (N, N), with one entry per link and direction."""
-        from scipy.sparse import coo_matrix
+        sparse: Any = import_module("scipy.sparse")
 
         row, column, area = *self.pairs.T, self.exchange_areas
         if not self.directed:
             row, column = np.concatenate([row, column]), np.concatenate([column, row])
             area = np.concatenate([area, area])
-        return coo_matrix((area, (row, column)), shape=(self.N, self.N))
+        return sparse.coo_matrix((area, (row, column)), shape=(self.N, self.N))
 
 
 class Fit(NamedTuple):
@@ -149,20 +164,20 @@ class Fit(NamedTuple):
 class Study:
     """L against N; arrays have an item per ε."""
 
-    def __init__(self, scene: Any, rows: np.ndarray, raw: Any, pairs: Any):
+    def __init__(self, scene: Any, rows: Array, raw: Any, pairs: Any):
         self.scene = scene
         self._raw = raw
         self._pairs = pairs
-        self.epsilon: np.ndarray = rows["epsilon"].copy()
-        self.N: np.ndarray = rows["N"].astype(np.int64)
+        self.epsilon: Array = rows["epsilon"].copy()
+        self.N: Array = rows["N"].astype(np.int64)
         """Elements: all nodes of all trees."""
-        self.L: np.ndarray = rows["L"].astype(np.int64)
+        self.L: Array = rows["L"].astype(np.int64)
         """Links."""
-        self.leaves: np.ndarray = rows["leaves"].astype(np.int64)
-        self.limited: np.ndarray = rows["limited"].astype(np.int64)
+        self.leaves: Array = rows["leaves"].astype(np.int64)
+        self.limited: Array = rows["limited"].astype(np.int64)
         """Links that only a limit of the level accepted."""
-        self.oracle_calls: np.ndarray = rows["oracle_calls"].astype(np.int64)
-        self.seconds: np.ndarray = rows["seconds"].copy()
+        self.oracle_calls: Array = rows["oracle_calls"].astype(np.int64)
+        self.seconds: Array = rows["seconds"].copy()
 
     def __len__(self) -> int:
         return len(self.epsilon)
@@ -172,6 +187,13 @@ class Study:
             return "<hr2d.Study of no ε>"
         return (f"<hr2d.Study of {len(self)} ε, N {self.N.min()} to {self.N.max()}, "
                 f"L {self.L.min()} to {self.L.max()}>")
+
+    def to_dataframe(self) -> Any:
+        """A pandas.DataFrame with a row for each ε."""
+        pandas: Any = import_module("pandas")
+
+        names = ("epsilon", "N", "L", "leaves", "limited", "oracle_calls", "seconds")
+        return pandas.DataFrame({name: getattr(self, name) for name in names})
 
     @cached_property
     def fit(self) -> Fit:
@@ -197,7 +219,7 @@ def refine(scene: Any, paper: Dict[str, Any], limits: Dict[str, int], ordered: b
     return Links(scene, pairs)
 
 
-def study(scene: Any, epsilon: Union[Sequence[float], np.ndarray], paper: Dict[str, Any],
+def study(scene: Any, epsilon: Union[Sequence[float], Array], paper: Dict[str, Any],
           limits: Dict[str, int], ordered: bool,
           progress: Optional[ProgressFunction]) -> Study:
     values = np.asarray(epsilon, np.float64)

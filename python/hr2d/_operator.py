@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import warnings
-from typing import Any, Dict, NamedTuple, Optional
+from typing import Any, Dict, List, NamedTuple, Optional, Tuple
 
 import numpy as np
 
-from ._arrays import doubles, frozen, writable
+from ._arrays import Array, doubles, frozen, writable
 from ._calls import Call, ProgressFunction, owned
 from ._errors import AccuracyWarning
 from ._hr2d import ffi, lib
@@ -18,8 +18,8 @@ from ._solve import make_target
 class Lights(NamedTuple):
     """Solutions for several lights at once, (lights, patches, bands)."""
 
-    B: np.ndarray
-    H: np.ndarray
+    B: Array
+    H: Array
     account: Account
     """The largest errors over all lights."""
 
@@ -27,11 +27,11 @@ class Lights(NamedTuple):
 class Gradient(NamedTuple):
     """The derivatives of a functional."""
 
-    emission: np.ndarray
+    emission: Array
     """By E of each patch and band."""
-    reflectance: np.ndarray
+    reflectance: Array
     """By ρ; where a temperature is given E = (1 − ρ)σT⁴ changes, too; NaN where a flux is."""
-    temperature: np.ndarray
+    temperature: Array
     """By T of each patch; NaN where none is given."""
 
 
@@ -46,7 +46,7 @@ class Operator:
     def __init__(self, scene: Any, target: Dict[str, Any], limits: Dict[str, int],
                  points: bool, progress: Optional[ProgressFunction]):
         self.scene = scene
-        self._target: list = []
+        self._target: List[Any] = []
         raw = make_target(target, limits, points, self._target)
         self._target.append(raw)
         pointer, account = ffi.new("hr2d_operator **"), ffi.new("hr2d_account *")
@@ -64,12 +64,12 @@ class Operator:
     def __repr__(self) -> str:
         return f"<hr2d.Operator of {len(self.scene)} patches, {self.account.elements} elements>"
 
-    def _sizes(self, axes: str) -> tuple:
+    def _sizes(self, axes: str) -> Tuple[Any, ...]:
         size = {"p": len(self.scene), "b": self.scene.bands,
                 "s": lib.hr2d_scene_sky_pieces(self.scene._raw)}
         return tuple(size[axis] for axis in axes)
 
-    def _values(self, kind: str, values: Any, axes: str) -> np.ndarray:
+    def _values(self, kind: str, values: Any, axes: str) -> Array:
         """(lights, ...) or (...), where (patches,) stands for (patches, bands) of one band."""
         array, shape = np.asarray(values, np.float64), self._sizes(axes)
         if axes == "pb" and array.ndim == 1:
@@ -81,7 +81,7 @@ class Operator:
             raise ValueError(f"{kind} ends with {shape}, not {array.shape[-len(shape):]}")
         return array
 
-    def _light(self, given: Dict[str, Any], keep: list) -> Any:
+    def _light(self, given: Dict[str, Any], keep: List[Any]) -> Any:
         """The struct of a light, and whether arrays have an axis of lights."""
         arrays = {kind: self._values(kind, values, _AXES[kind])
                   for kind, values in given.items() if values is not None}
@@ -127,7 +127,7 @@ class Operator:
         """
         given = {"emission": emission, "reflectance": reflectance, "temperature": temperature,
                  "flux": flux, "background": background, "sun": sun, "sky": sky}
-        keep: list = []
+        keep: List[Any] = []
         light, many = self._light(given, keep)
         light.no_error = not account
         pointer, told = ffi.new("hr2d_solution **"), ffi.new("hr2d_account *")
@@ -148,16 +148,16 @@ class Operator:
         return Lights(self._read(raw, "hr2d_solution_average", light.count),
                       self._read(raw, "hr2d_solution_irradiance", light.count), found)
 
-    def _read(self, raw: Any, getter: str, count: int) -> np.ndarray:
+    def _read(self, raw: Any, getter: str, count: int) -> Array:
         patches, bands = self._sizes("pb")
         values = np.empty((patches, count * bands))
         lib.hr2dpy_values(ffi.addressof(lib, getter), raw, *values.shape, writable(values))
         return frozen(np.moveaxis(values.reshape(patches, count, bands), 1, 0).copy())
 
     def response(self, *, reflectance: Any = None,
-                 progress: Optional[ProgressFunction] = None) -> np.ndarray:
+                 progress: Optional[ProgressFunction] = None) -> Array:
         """∂B_i/∂E_j of averages, (patches i, patches j, bands)."""
-        keep: list = []
+        keep: List[Any] = []
         light, many = self._light({"reflectance": reflectance}, keep)
         if many:
             raise ValueError("a response is that of one light")

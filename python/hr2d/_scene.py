@@ -2,37 +2,42 @@
 """Scenes: patches with emission and reflectance."""
 from __future__ import annotations
 
+import json
 import os
 import threading
 from contextlib import contextmanager
 from functools import cached_property
+from importlib import import_module
 from typing import (Any, Dict, Iterator, List, Mapping, NamedTuple, Optional, Sequence, Tuple,
                     Union)
 
 import numpy as np
 
 from . import _draw, _links, _solve
-from ._arrays import doubles, frozen, view, writable
+from ._arrays import Array, doubles, frozen, view, writable
 from ._calls import POLL, Call, ProgressFunction, keep_exception, owned, thread_count
-from ._errors import SceneError, StateError
-from ._geojson import outside_of, text_of
+from ._enclosure import Enclosure
+from ._errors import SceneError, StateError, error_of
+from ._geojson import collection_of, outside_of, text_of
 from ._hr2d import ffi, lib
 from ._law import Law
 from ._links import Links, Study
 from ._operator import Operator
+from ._points import PointFactors, point_factors
 from ._solution import Solution
+from ._solve import Prediction
 from ._strategy import OracleLike, PolicyLike
 
-Values = Union[float, Sequence[float], np.ndarray]
+Values = Union[float, Sequence[float], Array]
 PatchLike = Union[int, str]
 
 
 class Sun(NamedTuple):
     """The suns of the bands."""
 
-    direction: np.ndarray
+    direction: Array
     """In which their light travels, (bands, 2)."""
-    irradiance: np.ndarray
+    irradiance: Array
     """On a surface across it, (bands,)."""
 
 
@@ -102,13 +107,11 @@ class Scene:
         self._lock = threading.RLock()
         self._changing = False
         self._committed = False
+        self._log: List[Tuple[str, Tuple[Any, ...]]] = []  # the calls that made the scene
         if background is not None:
             self.set_background(background)
         if wavelengths is not None:
-            borders = np.atleast_1d(np.ascontiguousarray(wavelengths, dtype=np.float64)).ravel()
-            with self._change() as call:
-                call.check(lib.hr2d_scene_set_wavelengths(self._raw, doubles(borders),
-                                                          borders.size), self._message)
+            self.set_wavelengths(wavelengths)
         if background_temperature is not None:
             self.add_text(outside_of({"background_temperature": background_temperature}))
         if sun is not None:
@@ -134,12 +137,45 @@ class Scene:
     def _message(self) -> Any:
         return lib.hr2d_scene_message(self._raw)
 
+    # A copy, and the scene that pickle makes, has the same patches by the same calls, so that
+    # each of its bits is the same.
+
+    def __getstate__(self) -> Dict[str, Any]:
+        with self._lock:
+            return {"log": list(self._log), "committed": self._committed}
+
+    def __setstate__(self, state: Dict[str, Any]) -> None:
+        self.__init__()  # type: ignore[misc]
+        for name, arguments in state["log"]:
+            getattr(self, name)(*arguments)
+        if state["committed"]:
+            self.commit()
+
     def set_background(self, background: Values) -> None:
         """Sets the light from the surroundings, one value ≥ 0, or one per band."""
         values = np.atleast_1d(np.ascontiguousarray(background, dtype=np.float64)).ravel()
         with self._change() as call:
             call.check(lib.hr2d_scene_set_background(self._raw, doubles(values), values.size),
                        self._message)
+            self._log.append(("set_background", (values,)))
+
+    def set_wavelengths(self, wavelengths: Values) -> None:
+        """Divides the spectrum of temperatures into bands, one more than the borders in µm."""
+        borders = np.atleast_1d(np.ascontiguousarray(wavelengths, dtype=np.float64)).ravel()
+        with self._change() as call:
+            call.check(lib.hr2d_scene_set_wavelengths(self._raw, doubles(borders), borders.size),
+                       self._message)
+            self._log.append(("set_wavelengths", (borders,)))
+
+    def force(self, effect: str) -> None:
+        """Turns an effect on that the scene does not call for, by its name in `effects`."""
+        names = [ffi.string(lib.hr2d_effect_name(k)).decode()
+                 for k in range(lib.HR2D_EFFECT_COUNT)]
+        if effect not in names:
+            raise ValueError(f"{effect!r} is none of {', '.join(names)}")
+        with self._change() as call:
+            call.check(lib.hr2d_scene_force(self._raw, names.index(effect)), self._message)
+            self._log.append(("force", (effect,)))
 
     def set_sun(self, irradiance: Values, *, bearing: Optional[Values] = None,
                 direction: Any = None) -> None:
@@ -163,12 +199,14 @@ class Scene:
         line = ffi.new("hr2d_segment *", [[float(c) for c in a], [float(c) for c in b]])
         with self._change() as call:
             call.check(lib.hr2d_scene_add_mirror(self._raw, line[0]), self._message)
+            self._log.append(("add_mirror", (tuple(map(float, a)), tuple(map(float, b)))))
 
     def set_period(self, dx: float, dy: float) -> None:
         """Repeats the scene for ever, at each multiple of (dx, dy); (0, 0) for none."""
         period = ffi.new("hr2d_point *", [dx, dy])
         with self._change() as call:
             call.check(lib.hr2d_scene_set_period(self._raw, period[0]), self._message)
+            self._log.append(("set_period", (float(dx), float(dy))))
 
     def add(self, shape: Any, *, emission: Optional[Values] = None,
             reflectance: Optional[Values] = None, temperature: Optional[float] = None,
@@ -200,6 +238,12 @@ class Scene:
             mirror.
         faces
             For polygons, "in" for rooms or "out" for obstacles.
+
+        >>> room = hr2d.Scene(background=1)
+        >>> room.add([(0, 0), (4, 0), (4, 3)], emission=[0, 1, 2], reflectance=.5, name="wall")
+        range(0, 2)
+        >>> room.names, room.bands
+        (['wall/1', 'wall/2'], 3)
         """
         return self.add_text(text_of(shape, {"name": name, "emission": emission,
                                              "reflectance": reflectance,
@@ -210,26 +254,33 @@ class Scene:
 
     def add_text(self, text: Union[str, bytes]) -> range:
         """Adds the patches of the text of a scene file, GeoJSON or .vs2."""
-        data = text.encode() if isinstance(text, str) else bytes(text)
+        return self._parse(text.encode() if isinstance(text, str) else bytes(text))
+
+    def _parse(self, data: bytes, place: Any = "") -> range:
         with self._change() as call:
             first = len(self)
-            call.check(lib.hr2d_scene_parse(self._raw, data, len(data)), self._message)
+            call.check(lib.hr2d_scene_parse(self._raw, data, len(data)), self._message, place)
+            self._log.append(("add_text", (data,)))
             return range(first, len(self))
 
     def add_file(self, path: Union[str, "os.PathLike[str]"]) -> range:
         """Adds the patches of a scene file, GeoJSON or .vs2."""
-        with self._change() as call:
-            first = len(self)
-            call.check(lib.hr2d_scene_read(self._raw, os.fsencode(path)), self._message,
-                       os.fspath(path))
-            return range(first, len(self))
+        place = os.fspath(path)
+        try:
+            with open(path, "rb") as stream:
+                data = stream.read()
+        except OSError as error:
+            raise error_of(lib.HR2D_EIO, f"{os.fsdecode(place)}: cannot open: "
+                                         f"{error.strerror}") from error
+        return self._parse(data, place)
 
     def split_crossings(self) -> int:
         """Cuts patches where they cross, and returns the number of cuts."""
         cuts = ffi.new("size_t *")
         with self._change() as call:
             call.check(lib.hr2d_scene_split_crossings(self._raw, cuts), self._message)
-        return cuts[0]
+            self._log.append(("split_crossings", ()))
+        return int(cuts[0])
 
     def snap(self, tolerance: float) -> Snap:
         """Repairs a drawing: ends within `tolerance` become one, ends beside a patch stand on it.
@@ -239,11 +290,16 @@ class Scene:
         report = ffi.new("hr2d_snap_report *")
         with self._change() as call:
             call.check(lib.hr2d_scene_snap(self._raw, tolerance, report), self._message)
+            self._log.append(("snap", (tolerance,)))
         return Snap(*(getattr(report, name) for name in Snap._fields))
 
     def warnings(self, *, gap: float = 0,
                  progress: Optional[ProgressFunction] = None) -> List[SceneWarning]:
         """What is valid in the scene, but maybe not meant.
+
+        >>> dark = hr2d.Scene()
+        >>> [w.code for w in (dark.add([(0, 0), (1, 0)]), dark.warnings())[1]]
+        ['dark-scene']
 
         Warnings about light and views need a scene that can be committed.  Openings below the
         part `gap` of the scene are narrow, 1e-3 by default.
@@ -272,20 +328,24 @@ class Scene:
 
     def __len__(self) -> int:
         with self._lock:
-            return lib.hr2d_scene_patches(self._raw)
+            return int(lib.hr2d_scene_patches(self._raw))
 
     def __repr__(self) -> str:
         return f"<hr2d.Scene of {len(self)} patches>"
 
     def index(self, patch: PatchLike) -> int:
-        """The index of a patch that is given by its name or its index."""
+        """The index of a patch that is given by its name or its index.
+
+        >>> square().index("walls/2")
+        2
+        """
         if isinstance(patch, str):
             found = ffi.new("size_t *")
             with self._lock:
                 missing = lib.hr2d_scene_find(self._raw, patch.encode(), found)
             if missing:
                 raise KeyError(f"no patch is called {patch!r}")
-            return found[0]
+            return int(found[0])
         index = int(patch)
         if not 0 <= index < len(self):
             raise IndexError(f"there is no patch {patch}")
@@ -298,7 +358,7 @@ class Scene:
             return [ffi.string(lib.hr2d_scene_name(self._raw, k)).decode()
                     for k in range(len(self))]
 
-    def _geometry(self) -> Any:
+    def _geometry(self) -> Tuple[Array, Array]:
         with self._lock:  # the number of patches is asked for twice
             ends, lengths = np.empty((len(self), 2, 2)), np.empty(len(self))
             if len(self):
@@ -306,37 +366,37 @@ class Scene:
         return ends, lengths
 
     @property
-    def segments(self) -> np.ndarray:
+    def segments(self) -> Array:
         """The ends of the patches, (patches, 2, 2)."""
         return self._geometry()[0]
 
     @property
-    def lengths(self) -> np.ndarray:
+    def lengths(self) -> Array:
         """The lengths of the patches."""
         return self._geometry()[1]
 
     @property
     def bands(self) -> int:
         """The number of bands."""
-        return lib.hr2d_scene_bands(self.commit()._raw)
+        return int(lib.hr2d_scene_bands(self.commit()._raw))
 
     @property
     def unit(self) -> float:
         """Scene lengths per unit of the coordinates of elements, a power of two."""
-        return lib.hr2d_scene_unit(self.commit()._raw)
+        return float(lib.hr2d_scene_unit(self.commit()._raw))
 
-    def _values(self, getter: str) -> np.ndarray:
+    def _values(self, getter: str) -> Array:
         values = np.empty((len(self), self.bands))
         lib.hr2dpy_scene_values(ffi.addressof(lib, getter), self._raw, writable(values))
         return frozen(values)
 
     @cached_property
-    def emission(self) -> np.ndarray:
+    def emission(self) -> Array:
         """E of each patch, (patches, bands)."""
         return self._values("hr2d_scene_emission")
 
     @cached_property
-    def reflectance(self) -> np.ndarray:
+    def reflectance(self) -> Array:
         """ρ of each patch, (patches, bands)."""
         return self._values("hr2d_scene_reflectance")
 
@@ -353,10 +413,17 @@ class Scene:
                                 for k in range(len(self))], dtype=np.intp))
 
     @property
-    def background(self) -> np.ndarray:
+    def background(self) -> Array:
         """The light from the surroundings, (bands,)."""
         return np.array([lib.hr2d_scene_background(self._raw, band)
                          for band in range(self.bands)])
+
+    @property
+    def mirrors(self) -> Array:
+        """Two points of each mirror, (mirrors, 2, 2)."""
+        lines = [lib.hr2d_scene_mirror(self._raw, k)
+                 for k in range(lib.hr2d_scene_mirrors(self._raw))]
+        return np.array([[(s.a.x, s.a.y), (s.b.x, s.b.y)] for s in lines]).reshape(-1, 2, 2)
 
     @property
     def period(self) -> Tuple[float, float]:
@@ -367,17 +434,17 @@ class Scene:
     @property
     def images(self) -> int:
         """How many images mirrors and a period make of each patch, with the patch itself."""
-        return lib.hr2d_scene_images(self.commit()._raw)
+        return int(lib.hr2d_scene_images(self.commit()._raw))
 
     @property
     def cut_off(self) -> float:
         """The largest part of the directions from a patch in which images are extrapolated."""
-        return lib.hr2d_scene_cut_off(self.commit()._raw)
+        return float(lib.hr2d_scene_cut_off(self.commit()._raw))
 
     def sunlight_cut_off(self, band: int = 0) -> float:
         """The irradiance of a sun that shines past more images of a period than there are; 0 of
         others. Fronts may have that much more of it, times a cosine, which no error contains."""
-        return lib.hr2d_scene_sunlight_cut_off(self.commit()._raw, band)
+        return float(lib.hr2d_scene_sunlight_cut_off(self.commit()._raw, band))
 
     @property
     def sun(self) -> Sun:
@@ -386,7 +453,7 @@ class Scene:
         return Sun(np.array([(sun.direction.x, sun.direction.y) for sun in suns]),
                    np.array([sun.irradiance for sun in suns]))
 
-    def sky(self, bearing: Any) -> np.ndarray:
+    def sky(self, bearing: Any) -> Array:
         """The radiosity of the sky at bearings of any shape, and then the bands."""
         bearing = np.require(bearing, np.float64, "C")
         values = np.empty((*np.shape(bearing), self.bands))
@@ -394,11 +461,11 @@ class Scene:
         return values
 
     @cached_property
-    def sunlight(self) -> np.ndarray:
+    def sunlight(self) -> Array:
         """The part of the average H that comes straight from the sun, (patches, bands)."""
         return self._values("hr2d_scene_sunlight")
 
-    def sunlight_at(self, patch: PatchLike, t: Any) -> np.ndarray:
+    def sunlight_at(self, patch: PatchLike, t: Any) -> Array:
         """The same at points of a patch: fractions of it, of any shape, and then the bands."""
         index, t = self.index(patch), np.require(t, np.float64, "C")
         if not ((t >= 0) & (t <= 1)).all():
@@ -407,7 +474,7 @@ class Scene:
         lib.hr2dpy_sunlight(self._raw, index, doubles(t), t.size, writable(values))
         return values
 
-    def sunlit_parts(self, patch: PatchLike, band: int = 0) -> np.ndarray:
+    def sunlit_parts(self, patch: PatchLike, band: int = 0) -> Array:
         """Where the sun of a band lights a patch: (parts, 2), fractions of the patch."""
         index = self.index(patch)
         if not 0 <= band < self.bands:
@@ -435,6 +502,10 @@ class Scene:
         return (self.bands > 1 and
                 lib.hr2d_scene_heat(self._raw, index, ffi.NULL) == lib.HR2D_HEAT_FLUX)
 
+    def _has_heat(self) -> bool:
+        return any(lib.hr2d_scene_heat(self._raw, k, ffi.NULL) != lib.HR2D_HEAT_NONE
+                   for k in range(len(self)))
+
     # View factors
 
     def exchange_areas(self, *, sparse: bool = False, threads: Any = 1,
@@ -442,6 +513,10 @@ class Scene:
         """AF_ij = A_i F_ij of all patches in scene lengths: symmetric, bit for bit.
 
         An array (n, n); with `sparse` a scipy.sparse.csr_matrix over the memory of the library.
+
+        >>> area = square().exchange_areas()
+        >>> bool((area == area.T).all()), area.shape
+        (True, (4, 4))
         """
         self.commit()
         options = ffi.new("hr2d_matrix_options *", {
@@ -454,14 +529,13 @@ class Scene:
         return area
 
     def _exchange_rows(self, options: Any, progress: Optional[ProgressFunction]) -> Any:
-        from scipy.sparse import csr_matrix
-
+        linear: Any = import_module("scipy.sparse")
         pointer, n = ffi.new("hr2d_exchange_rows **"), len(self)
         with Call(progress) as call:
             call.check(lib.hr2d_exchange_rows_create(self._raw, options, pointer, ffi.NULL))
         rows = owned(pointer[0], lib.hr2d_exchange_rows_destroy, self._raw)
         entries = lib.hr2d_exchange_rows_entries(rows)
-        return csr_matrix((view(lib.hr2d_exchange_rows_area(rows), np.float64, entries, rows),
+        return linear.csr_matrix((view(lib.hr2d_exchange_rows_area(rows), np.float64, entries, rows),
                            view(lib.hr2d_exchange_rows_column(rows), np.int32, entries, rows),
                            view(lib.hr2d_exchange_rows_start(rows), np.int64, n + 1, rows)),
                           shape=(n, n), copy=False)
@@ -471,6 +545,12 @@ class Scene:
         """View factors F_ij: the part of the light from i that reaches j.
 
         An array (n, n), or with `sparse` a scipy.sparse.csr_matrix without the zeros.
+
+        >>> square().factors().round(4)
+        array([[0.    , 0.2929, 0.4142, 0.2929],
+               [0.2929, 0.    , 0.2929, 0.4142],
+               [0.4142, 0.2929, 0.    , 0.2929],
+               [0.2929, 0.4142, 0.2929, 0.    ]])
         """
         area = self.exchange_areas(sparse=sparse, threads=threads, progress=progress)
         lengths = self.lengths
@@ -480,15 +560,52 @@ class Scene:
         area /= lengths[:, None]
         return area
 
+    def point_factors(self, points: Any, normals: Any = None, *, threads: Any = 1,
+                      progress: Optional[ProgressFunction] = None) -> PointFactors:
+        """View factors from points of the plane to all patches, with exact visibility.
+
+        `points` are x and y in scene coordinates, in any shape, as for Solution.field();
+        `normals` are dx and dy of each point, or of all of them, of any length but 0.
+
+        >>> see = square().point_factors((.5, .5), normals=(0, 1))
+        >>> see.share.round(3), see.factor.round(3), float(see.sky)
+        (array([0.25, 0.25, 0.25, 0.25]), array([0.   , 0.146, 0.707, 0.146]), 0.0)
+        """
+        return point_factors(self.commit(), points, normals, threads, progress)
+
+    # Writing
+
+    def to_geojson(self) -> Dict[str, Any]:
+        """The scene as a GeoJSON mapping: a feature for each patch, as it is now.
+
+        Patches that were cut or snapped are so there.  Of a patch of given temperature whose
+        emissivity depends on it the emissivity is that at this temperature.  Scene.add() takes
+        the mapping, but for its member "hr2d"; add_text(json.dumps(…)) takes all of it.
+
+        >>> square().to_geojson()["features"][0]["properties"]
+        {'name': 'floor', 'emission': 1.0, 'reflectance': 0.5}
+        """
+        return collection_of(self)
+
+    def write(self, path: Union[str, "os.PathLike[str]"]) -> None:
+        """Writes to_geojson() as a scene file, which hr2d.read() and the program read."""
+        collection = self.to_geojson()
+        features = ",\n".join(json.dumps(f) for f in collection.pop("features"))
+        head = "".join(f"{json.dumps(key)}: {json.dumps(value)},\n"
+                       for key, value in collection.items())
+        with open(path, "w", encoding="utf-8") as stream:
+            stream.write(f"{{{head}\"features\": [\n{features}\n]}}\n")
+
     # Solving
 
     def solve(self, *, error: Optional[float] = None, seconds: Optional[float] = None,
               norm: str = "average", important: Sequence[PatchLike] = (),
-              floor: Optional[float] = None, points: bool = False,
+              floor: Optional[float] = None, points: bool = False, no_error: bool = False,
               epsilon: Optional[float] = None,
               oracle: OracleLike = None, policy: PolicyLike = None,
               order: Optional[int] = None, max_level: Optional[int] = None,
-              closure: Optional[bool] = None, max_elements: int = 0, max_links: int = 0,
+              closure: Optional[bool] = None,
+              start: Union[None, bytes, Solution] = None, max_elements: int = 0, max_links: int = 0,
               max_bytes: int = 0, threads: Any = 1,
               progress: Optional[ProgressFunction] = None) -> Solution:
         """Solves for the radiosity, in one of two ways.
@@ -505,6 +622,9 @@ class Scene:
             Patches, by name or index, whose averages have to reach the target.
         floor
             The part of the largest average below which patches count as equally dark.
+        no_error
+            The first solve stands, mostly within the target, and no time goes into its error:
+            all errors of the account are infinite.
 
         If the target is not reached, an AccuracyWarning says why, and the best solution is
         returned.
@@ -525,16 +645,23 @@ class Scene:
             Elements on this level are not divided, 24 by default.
         closure
             Whether the exchange of every leaf is made exact; True by default.
+        start
+            A solution by links of a larger ε, or its state(), with the same oracle, policy and
+            order: its links are refined, and iterations begin with its light.
+
+        >>> s = square().solve(error=1e-6)
+        >>> s.B[:, 0].round(4), s.account.reached
+        (array([1.1486, 0.2696, 0.3122, 0.2696]), True)
 
         Both take `points`, which measures errors at points, too (the norm "sup" does that
         anyway), limits, `threads` (a number or "all") and `progress`, a function that is given
         a Progress up to 20 times a second and returns False to stop.
         """
         target = {"error": error, "seconds": seconds, "floor": floor,
-                  "norm": None if norm == "average" else norm,
+                  "norm": None if norm == "average" else norm, "no_error": no_error or None,
                   "important": [self.index(patch) for patch in important] or None}
         paper = {"epsilon": epsilon, "oracle": oracle, "policy": policy, "order": order,
-                 "max_level": max_level, "closure": closure}
+                 "max_level": max_level, "closure": closure, "start": start}
         limits = {"max_elements": max_elements, "max_links": max_links, "max_bytes": max_bytes,
                   "threads": thread_count(threads)}
         of_target = [key for key, value in target.items() if value is not None]
@@ -547,6 +674,38 @@ class Scene:
             return _solve.by_links(self, paper, limits, points, progress)
         return _solve.to_target(self, target, limits, points, progress)
 
+    def predict(self, *, error: Optional[float] = None, norm: str = "average",
+                important: Sequence[PatchLike] = (), floor: Optional[float] = None,
+                points: bool = False, no_error: bool = False, max_elements: int = 0,
+                max_links: int = 0, max_bytes: int = 0, threads: Any = 1,
+                progress: Optional[ProgressFunction] = None) -> Prediction:
+        """What solve() to a target will cost, mostly within a factor of 2; see its arguments.
+
+        >>> square().predict(error=1e-6).elements > 4
+        True
+        """
+        target = {"error": error, "seconds": None, "floor": floor, "norm": norm,
+                  "no_error": no_error,
+                  "important": [self.index(patch) for patch in important] or None}
+        limits = {"max_elements": max_elements, "max_links": max_links, "max_bytes": max_bytes,
+                  "threads": thread_count(threads)}
+        self.commit()
+        return _solve.predict(self, target, limits, points, progress)
+
+    def enclose(self, gap: Optional[float] = None, *, max_links: int = 0,
+                progress: Optional[ProgressFunction] = None) -> Enclosure:
+        """Lower and upper ends of averages of B and H that rest on no assumption.
+
+        They are at most `gap` apart, 1e-3 by default, relative to the largest of the band; where
+        a million links or `max_links` do not suffice, an AccuracyWarning says so, and the ends
+        are true all the same.
+
+        >>> ends = square().enclose(0.1)
+        >>> bool((ends.lower <= square().solve().B).all()), ends.gap <= 0.1
+        (True, True)
+        """
+        return Enclosure(self.commit(), gap, max_links, progress)
+
     def operator(self, *, error: Optional[float] = None, norm: str = "average",
                  important: Sequence[PatchLike] = (), floor: Optional[float] = None,
                  points: bool = False, max_elements: int = 0, max_links: int = 0,
@@ -557,6 +716,7 @@ class Scene:
         The arguments are those of solve() to a target; they hold for all light.
         """
         target = {"error": error, "seconds": None, "floor": floor, "norm": norm,
+                  "no_error": False,
                   "important": [self.index(patch) for patch in important] or None}
         limits = {"max_elements": max_elements, "max_links": max_links, "max_bytes": max_bytes,
                   "threads": thread_count(threads)}
@@ -574,6 +734,10 @@ class Scene:
 
         The arguments are those of solve(); with `ordered` every ordered pair of patches is
         projected, as the paper words it, and links carry one direction.
+
+        >>> links = square().refine(epsilon=.5)
+        >>> links.pairs.shape == (links.L, 2), links.matrix().shape == (links.N, links.N)
+        (True, True)
         """
         paper = {"epsilon": epsilon, "oracle": oracle, "policy": policy, "max_level": max_level}
         limits = {"max_elements": max_elements, "max_links": max_links, "max_bytes": max_bytes,
@@ -581,7 +745,7 @@ class Scene:
         self.commit()
         return _links.refine(self, paper, limits, ordered, progress)
 
-    def study(self, epsilon: Union[Sequence[float], np.ndarray], *, oracle: OracleLike = None,
+    def study(self, epsilon: Union[Sequence[float], Array], *, oracle: OracleLike = None,
               policy: PolicyLike = None, max_level: Optional[int] = None,
               ordered: bool = False, max_elements: int = 0, max_links: int = 0,
               max_bytes: int = 0, threads: Any = 1,
@@ -590,6 +754,10 @@ class Scene:
 
         Each ε begins with the whole patches, and no link is stored.  The arguments are those
         of refine(); a limit that is reached is an error.
+
+        >>> study = square().study([1, .5, .25])
+        >>> study.N.shape, bool((np.diff(study.L) > 0).all())
+        ((3,), True)
         """
         paper = {"epsilon": None, "oracle": oracle, "policy": policy, "max_level": max_level}
         limits = {"max_elements": max_elements, "max_links": max_links, "max_bytes": max_bytes,
@@ -633,8 +801,22 @@ def read(path: Union[str, "os.PathLike[str]"]) -> Scene:
     return scene
 
 
+def black_body(kelvin: float, low: float = 0, high: float = float("inf")) -> float:
+    """What a black surface emits in W/m², between two wavelengths in µm if they are given.
+
+    >>> round(black_body(300), 3)
+    459.3
+    """
+    part = 1.0 if (low, high) == (0, float("inf")) else lib.hr2d_black_body_part(kelvin, low, high)
+    return float(part * lib.hr2d_black_body(kelvin))
+
+
 def exchange_area(i: Any, j: Any, occluders: Any = ()) -> float:
-    """AF_ij of two segments ((ax, ay), (bx, by)), with occluders between them."""
+    """AF_ij of two segments ((ax, ay), (bx, by)), with occluders between them, in scene lengths.
+
+    >>> round(exchange_area([(0, 0), (1, 0)], [(1, 1), (0, 1)]), 6)
+    0.414214
+    """
     ends = np.ascontiguousarray([i, j, *occluders], dtype=np.float64)
     if ends.shape[1:] != (2, 2):
         raise ValueError("a segment is two points, (x, y) each")
@@ -643,4 +825,4 @@ def exchange_area(i: Any, j: Any, occluders: Any = ()) -> float:
     with Call() as call:
         call.check(lib.hr2d_exchange_area_occluded(segment, segment + 1, segment + 2,
                                                    len(ends) - 2, ffi.NULL, area))
-    return area[0]
+    return float(area[0])

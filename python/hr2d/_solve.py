@@ -4,15 +4,35 @@ from __future__ import annotations
 
 import math
 import warnings
-from typing import Any, Dict, Optional, Tuple
+from typing import Any, Dict, List, NamedTuple, Optional, Tuple
 
 from ._calls import Call, ProgressFunction, constant, owned
 from ._errors import AccuracyWarning, error_of
 from ._hr2d import ffi, lib
 from ._solution import Account, Solution
+from ._state import read_state
 from ._strategy import oracle_table, policy_table
 
 MOST_ROUNDS = 20  # of links by the light of the last round
+
+
+class Prediction(NamedTuple):
+    """The predicted cost of a solve to a target."""
+
+    order: int
+    elements: int
+    leaves: int
+    links: int
+    bytes: int
+    """Memory of elements, links and blocks at most."""
+    seconds: float
+    """Wall time, the account of the error included."""
+    least_seconds: float
+    """The range of that time begins here."""
+    most_seconds: float
+    """And ends here."""
+
+
 NORMS = {"average": lib.HR2D_NORM_AVERAGE, "sup": lib.HR2D_NORM_SUP}
 
 
@@ -32,7 +52,7 @@ def _error(error: Optional[float], seconds: Optional[float]) -> float:
 
 
 def make_target(target: Dict[str, Any], limits: Dict[str, int], points: bool,
-                keep: list) -> Any:
+                keep: List[Any]) -> Any:
     """The struct of a target; `keep` has what it points to."""
     norm = target["norm"] or "average"
     if norm not in NORMS:
@@ -42,6 +62,7 @@ def make_target(target: Dict[str, Any], limits: Dict[str, int], points: bool,
     raw.error = _error(target["error"], target["seconds"])
     raw.norm = NORMS[norm]
     raw.points = bool(points)
+    raw.no_error = bool(target["no_error"])
     if target["seconds"] is not None:
         raw.seconds = _positive("seconds", target["seconds"])
     if target["floor"] is not None:
@@ -56,7 +77,7 @@ def make_target(target: Dict[str, Any], limits: Dict[str, int], points: bool,
 
 def to_target(scene: Any, target: Dict[str, Any], limits: Dict[str, int], points: bool,
               progress: Optional[ProgressFunction]) -> Solution:
-    keep: list = []
+    keep: List[Any] = []
     raw = make_target(target, limits, points, keep)
     pointer, account = ffi.new("hr2d_solution **"), ffi.new("hr2d_account *")
     with Call(progress) as call:
@@ -71,6 +92,15 @@ def to_target(scene: Any, target: Dict[str, Any], limits: Dict[str, int], points
     if not reached:
         warnings.warn(solution.account.reason, AccuracyWarning, stacklevel=3)
     return solution
+
+
+def predict(scene: Any, target: Dict[str, Any], limits: Dict[str, int], points: bool,
+            progress: Optional[ProgressFunction]) -> Prediction:
+    keep: List[Any] = []
+    raw, found = make_target(target, limits, points, keep), ffi.new("hr2d_prediction *")
+    with Call(progress) as call:
+        call.check(lib.hr2d_predict(scene._raw, raw, found))
+    return Prediction(*(getattr(found, name) for name in Prediction._fields))
 
 
 def refine_options(paper: Dict[str, Any], limits: Dict[str, int]) -> Any:
@@ -131,6 +161,10 @@ def by_links(scene: Any, paper: Dict[str, Any], limits: Dict[str, int], points: 
 
         refine, solve = refine_options(paper, limits), _solve_options(paper, limits)
         solution = ffi.NULL
+        if paper["start"] is not None:
+            start = paper["start"]
+            state = start.state() if isinstance(start, Solution) else start
+            solution = read_state(pairs, state, call)
         for _ in range(MOST_ROUNDS if _needs_brightness(pairs) else 1):
             before = _size(pairs)
             refine.brightness = solve.start = solution

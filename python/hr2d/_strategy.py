@@ -6,7 +6,7 @@ from typing import Any, Callable, List, Optional, Tuple, Union
 
 import numpy as np
 
-from ._arrays import ELEMENT, copied
+from ._arrays import ELEMENT, Array, copied
 from ._calls import keep_exception
 from ._hr2d import ffi, lib
 
@@ -29,16 +29,16 @@ class Batch:
         """The ε of this refinement."""
         self.unit: float = raw.unit
         """Scene lengths per unit of the coordinates of elements."""
-        self.pairs: np.ndarray = pairs
+        self.pairs: Array = pairs
         """Numbers of the elements, (count, 2)."""
-        self.first: np.ndarray = every[pairs[:, 0]]
+        self.first: Array = every[pairs[:, 0]]
         """The first element of each pair: the receiver, if links are directed."""
-        self.second: np.ndarray = every[pairs[:, 1]]
+        self.second: Array = every[pairs[:, 1]]
         """The second element of each pair."""
-        self.partial: np.ndarray = (copied(raw.partial, np.uint8, raw.count).astype(bool)
+        self.partial: Array = (copied(raw.partial, np.uint8, raw.count).astype(bool)
                                     if raw.partial else np.zeros(raw.count, bool))
         """Whether something bounds the view between the elements of a pair."""
-        self.brightness: Optional[np.ndarray] = None
+        self.brightness: Optional[Array] = None
         """Of the second elements, relative to the brightest, if the oracle needs it."""
         if raw.brightness:
             bright = np.frombuffer(ffi.buffer(raw.brightness, (int(pairs.max()) + 1) * 8))
@@ -48,9 +48,11 @@ class Batch:
         return len(self.pairs)
 
     @property
-    def distance(self) -> np.ndarray:
+    def distance(self) -> Array:
         """Distances of the centres."""
-        return np.hypot(*(self.first["centre"] - self.second["centre"]).T)
+        apart = self.first["centre"] - self.second["centre"]
+        distances: Array = np.hypot(apart[:, 0], apart[:, 1])
+        return distances
 
 
 class Oracle:
@@ -72,7 +74,7 @@ class Policy:
 
     name = "python"
 
-    def acceptable(self, batch: Batch, error: np.ndarray) -> Any:
+    def acceptable(self, batch: Batch, error: Array) -> Any:
         """True for each pair that is linked.  Default: error ≤ ε."""
         raise NotImplementedError
 
@@ -88,7 +90,10 @@ class Policy:
 class _FunctionOracle(Oracle):
     def __init__(self, function: Callable[[Batch], Any]):
         self.name = getattr(function, "__name__", "python")
-        self.estimate = function  # type: ignore[method-assign]
+        self._function = function
+
+    def estimate(self, batch: Batch) -> Any:
+        return self._function(batch)
 
 
 OracleLike = Union[None, str, Oracle, Callable[[Batch], Any]]

@@ -76,11 +76,13 @@ def test_empty_scene():
     assert "0 patches" in hr2d.Scene()._repr_html_()
 
 
-def test_the_readme_runs():
-    pytest.importorskip("matplotlib")
+def test_the_readme_runs(tmp_path, monkeypatch):
+    for module in ("matplotlib", "pandas", "xarray"):
+        pytest.importorskip(module)
+    monkeypatch.chdir(tmp_path)
     text = (Path(__file__).parent.parent / "README.md").read_text(encoding="utf-8")
     blocks, names = re.findall(r"```python\n(.*?)```", text, re.S), {}
-    assert len(blocks) == 4
+    assert len(blocks) == 6
     for block in blocks:
         exec(compile(block, "README.md", "exec"), names)
     assert names["F"].shape == (7, 7) and names["s"].B.shape == (7, 1)
