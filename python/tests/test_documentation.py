@@ -2,6 +2,7 @@
 """Examples in docstrings do what they show, and everything public has a docstring and types."""
 import doctest
 import inspect
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -73,3 +74,47 @@ def test_types(tmp_path):
     wrong = tmp_path / "wrong.py"
     wrong.write_text(example.read_text().replace("error=1e-6", 'error="1e-6"'))
     assert 'has incompatible type "str"' in mypy(tmp_path, wrong).stdout
+
+
+INSTEAD = """
+add() and add_file() pass all through the reader of scene files
+hr2d_scene_add hr2d_scene_add_thermal hr2d_scene_read hr2d_scene_set_sky hr2d_scene_set_sun hr2d_patch_init
+hr2d_thermal_init
+arrays of patches, elements and links
+hr2d_scene_segment hr2d_scene_length hr2d_scene_image hr2d_element_level hr2d_element_parent hr2d_hierarchy_leaf
+hr2d_hierarchy_originals hr2d_hierarchy_scene hr2d_linkset_get hr2d_linkset_size hr2d_linkset_policy
+B, H, net_flux, at() and account
+hr2d_solution_error hr2d_solution_gather_net_flux hr2d_solution_work hr2d_solution_element_irradiance
+hr2d_scene_temperature
+exchange_area(), exchange_areas(), point_factors() and sunlit_parts()
+hr2d_exchange_area hr2d_exchange_area_past hr2d_exchange_rows_visit hr2d_beams_visit hr2d_kernel hr2d_orientation
+hr2d_scene_sunlight_over
+refine() and study()
+hr2d_refine_count hr2d_refine_visit
+names of oracles and policies
+hr2d_oracle_bf hr2d_oracle_bounds hr2d_oracle_l1 hr2d_oracle_l1_grid hr2d_oracle_size hr2d_oracle_size2
+hr2d_policy_modified hr2d_policy_original
+loops in C
+hr2d_scene_sky hr2d_scene_sunlight_at hr2d_solution_element
+pickle
+hr2d_state_read_scene hr2d_state_write_scene
+structs that are set to 0
+hr2d_field_options_init hr2d_lint_options_init hr2d_matrix_options_init
+for solvers and distributions that are written in C
+hr2d_blocks hr2d_leaf_sums hr2d_hierarchy_pull hr2d_hierarchy_push hr2d_linkset_own_tests hr2d_clusters_bytes
+hr2d_clusters_create hr2d_clusters_destroy hr2d_clusters_gather hr2d_clusters_links hr2d_clusters_options_init
+"""
+"""What takes the place of functions of C, and the functions."""
+
+
+def test_no_function_of_c_is_missed():
+    from hr2d._hr2d import lib
+
+    functions = {name for name in dir(lib) if name.startswith("hr2d_")}
+    package = Path(hr2d.__file__).parent
+    text = "".join(path.read_text(encoding="utf-8") for path in package.glob("*.py"))
+    used = set(re.findall(r"\bhr2d_\w+", text))
+    instead = set(re.findall(r"\bhr2d_\w+", INSTEAD))
+    lacking, wrong = functions - used - instead, instead - functions | instead & used
+    assert not lacking, f"give them to Python, or say what takes their place: {sorted(lacking)}"
+    assert not wrong, f"these are used, or no functions: {sorted(wrong)}"
