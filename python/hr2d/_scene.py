@@ -401,12 +401,12 @@ class Scene:
         return self._values("hr2d_scene_reflectance")
 
     @cached_property
-    def transmittance(self) -> np.ndarray:
+    def transmittance(self) -> Array:
         """τ of each patch, (patches, bands); 0 but on panes."""
         return self._values("hr2d_scene_transmittance")
 
     @cached_property
-    def other_side(self) -> np.ndarray:
+    def other_side(self) -> Array:
         """The patch on the other side of each pane; of other patches the patch itself."""
         self.commit()
         return frozen(np.array([lib.hr2d_scene_other_side(self._raw, k)

@@ -447,13 +447,12 @@ class Solution:
                                               f._wanted(errors), counts))
         return Grid(x, y, *f[:6], counts.interpolated)
 
-    def _field_options(self, errors: bool, threads: Any, normal: Optional[Array] = None) -> Any:
-        given = normal is not None and len(normal) > 0
+    def _field_options(self, errors: bool, threads: Any,
+                       normal: Array = np.empty((0, 2))) -> Any:
         return ffi.new("hr2d_field_options *", {
             "struct_size": ffi.sizeof("hr2d_field_options"), "threads": thread_count(threads),
             "account": self._point_account if errors else ffi.NULL,
-            "normal": ffi.cast("hr2d_point *", doubles(normal)) if given else ffi.NULL,
-            "normals": len(normal) if given else 0})
+            "normal": ffi.cast("hr2d_point *", doubles(normal)), "normals": len(normal)})
 
     def temperature_at(self, patch: Union[int, str], t: Any) -> Array:
         """Temperatures in kelvin at points of a patch, as at(): of the shape of `t`."""
