@@ -49,8 +49,8 @@
  *   is a front as well; of the two sides the one with the lower index counts. Where patches
  *   meet, they divide the directions into sectors. The limit is then along the line that
  *   halves one of these sectors: the widest between two fronts if there is any, of equal ones
- *   that beside the patch with the lowest index. On the inside of a wall the limit is taken at
- *   2^-44 of the unit.
+ *   that beside the patch with the lowest index, and with the lowest one on its other side. On
+ * the inside of a wall the limit is taken at 2^-44 of the unit.
  * - A point that sees no front, and no background with light or sun, is outside: within an
  *   obstacle, or behind the walls of a closed room. All its values but `sky` and `back` are
  *   NaN.

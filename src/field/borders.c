@@ -48,10 +48,9 @@ static double value_of(const hr2di_light_source *of, thing what, size_t band) {
   const size_t k = hr2di_leaf_at(&of->leaves, patch, what.at), bands = of->solution->bands;
   const double from = of->leaves.leaf[k].from, to = hr2di_leaf_end(&of->leaves, patch, k);
   const double xi = fmin(fmax(2 * (what.at - from) / (to - from) - 1, -1), 1);
-  return hr2di_basis_sum(&of->basis, xi,
-                         of->solution->value +
-                             of->leaves.leaf[k].element * of->solution->order * bands + band,
-                         bands);
+  return hr2di_basis_sum(
+      &of->basis, xi,
+      of->leaves.value + of->leaves.leaf[k].element * of->leaves.order * bands + band, bands);
 }
 
 static int has_light(const hr2di_light_source *of, thing what) {

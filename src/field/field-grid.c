@@ -90,7 +90,7 @@ static hr2d_status prepare(hr2di_grid_call *c, uint64_t *steps) {
   if (status) return status;
   find_range(c);
   status = hr2di_light_source_relax(of, c->view, &c->f.watch);
-  if (!status) status = hr2di_leaves_group(&of->leaves, of->solution, c->view, &c->f.watch);
+  if (!status) status = hr2di_leaves_group(&of->leaves, c->bands, c->view, &c->f.watch);
   c->coarse = !status && c->grid.columns > 4 && c->grid.rows > 4 && c->map.step.x != 0 &&
               c->map.step.y != 0 &&
               hr2di_borders_sources(of) <= c->grid.columns * c->grid.rows / SOURCES &&

@@ -17,7 +17,15 @@
    B(ξ₀)/(ξ − ξ₀), which is 2 B(ξ₀) Q_n(ξ₀)/P_n(ξ₀) with the second Legendre function Q_n: about
    2π B(ξ₀) ρ^−(2n+1), and (2n + 1) times that, at most, as a part of the angle. With |P_l(ξ₀)|
    ≤ ρ^l this gives 4 (2n + 1) (c₀ ρ^−2n + Σ |c_l| √(2l+1) ρ^(p−1−2n)), in which 4 has a factor
-   of 2 to spare. */
+   of 2 to spare.
+
+   So does an element that is far take the place of all leaves below it, which may differ much
+   more from its polynomial: what is left of B is orthogonal to polynomials of degree below p,
+   and of dω/dξ counts what these leave.  Im 1/(ξ − ξ₀) is the harder to approximate, as a part
+   of its integral, the nearer ξ₀ is to the line of the element, where it is
+   y/(ξ − x)² with the integral 2y/(x² − 1).  Polynomials leave 4 ρ^−(p+1) of 1/(ξ − x) in the
+   mean of |·|, so that they leave 4 (p + 1) ρ^−(p+1)/√(x² − 1) of its derivative: (p + 1) ρ^−p
+   of the angle.  Twice that is taken, times the largest difference. */
 #include "field/light.h"
 
 #include <math.h>
@@ -37,6 +45,9 @@ static const unsigned char rule_points[HR2DI_LIGHT_RULES] = {2,  3,  4,  5,  6, 
 /* Of the allowed error, what takes the merging of leaves, and what the rules. */
 #define MERGED 0.75
 #define RULED  0.25
+
+/* Of what the rules take, the part for leaves that an element stands for. */
+#define ORTHOGONAL 0.5
 
 hr2d_status hr2di_light_source_init(hr2di_light_source *of, const hr2d_solution *solution,
                                     hr2di_watch *watch) {
@@ -58,16 +69,20 @@ static double ellipse_of(double value, double power) {
   return (rho + 1 / rho) / 2;
 }
 
-static hr2di_light_far far_of(const hr2di_light_source *of, const hr2di_leaf *leaf) {
+static hr2di_light_far far_of(const hr2di_light_source *of, uint32_t element) {
+  const double order = (double)of->leaves.order, degree = order - 1;
+  const double differs = of->leaves.difference[element] * (MERGED / (RULED * ORTHOGONAL));
+  const double smooth = ellipse_of(2 * (order + 1) * differs, order);
   hr2di_light_far far;
+  float level, varies;
+  hr2di_leaves_measure(&of->leaves, of->solution->bands, element, &level, &varies);
   for (int k = 0; k < HR2DI_LIGHT_FAR; k++) {
-    const double n = rule_points[k], degree = (double)of->solution->order - 1;
-    const double max = 4 * (2 * n + 1) / of->allowed;
-    const double from = 2 * n > degree
-                            ? fmax(ellipse_of(2 * max * leaf->level, 2 * n),
-                                   ellipse_of(2 * max * leaf->varies, 2 * n - degree))
-                            : HUGE_VAL;
-    far.from[k] = (float)fmax(from, HR2DI_NEAR_ELLIPSE);
+    const double n = rule_points[k];
+    const double max = 4 * (2 * n + 1) / (of->allowed * (1 - ORTHOGONAL));
+    const double from = 2 * n > degree ? fmax(ellipse_of(2 * max * level, 2 * n),
+                                              ellipse_of(2 * max * varies, 2 * n - degree))
+                                       : HUGE_VAL;
+    far.from[k] = (float)fmax(fmax(from, smooth), HR2DI_NEAR_ELLIPSE);
   }
   return far;
 }
@@ -87,10 +102,13 @@ hr2d_status hr2di_light_source_relax(hr2di_light_source *of, const double *max,
   hr2d_status status = hr2di_leaves_init(&of->leaves, of->solution, merged, watch);
   hr2di_alloc_free(&alloc, merged);
   of->allowed = fmax(RULED * min, ROUNDING);
-  if (!status) of->far = hr2di_alloc(&alloc, of->leaves.leaves, sizeof *of->far);
-  if (!status && !of->far) status = HR2D_ENOMEM;
-  for (size_t k = 0; k < of->leaves.leaves && !status; k++) {
-    of->far[k] = far_of(of, &of->leaves.leaf[k]);
+  if (status) return status;
+  const size_t elements = of->solution->elements;
+  hr2di_basis_init(&of->basis, of->leaves.order);
+  of->far = hr2di_alloc(&alloc, elements, sizeof *of->far);
+  if (!of->far) return HR2D_ENOMEM;
+  for (size_t k = 0; k < elements && !status; k++) {
+    of->far[k] = far_of(of, (uint32_t)k);
     status = hr2di_watch_work(watch, 10);
   }
   return status;
@@ -131,7 +149,7 @@ typedef struct strip {
 static const hr2di_rule *choose_rule(const hr2di_light_source *of, const strip *s, double m) {
   const double digits = log(m + sqrt(m * m - 1));
   const double points =
-      ((double)of->solution->order + log(s->varies / of->allowed) / digits) / 2 + 1;
+      ((double)of->leaves.order + log(s->varies / of->allowed) / digits) / 2 + 1;
   int k = 0;
   while (k + 1 < HR2DI_LIGHT_RULES && rule_points[k] < points) k++;
   return &of->rule[k];
@@ -183,7 +201,7 @@ static void add_variation(hr2di_light_sum *sum, const strip *s, hr2di_span part)
                                  hr2di_block_along(s->from, s->along, panel.to)};
     const double m = hr2di_ellipse(around, (hr2d_point){0, 0});
     if (m < HR2DI_NEAR_ELLIPSE && hr2di_panel_halved(&panels, panel)) continue;
-    if (hr2di_watch_work(sum->watch, 1 + sum->of->solution->order * sum->of->solution->bands))
+    if (hr2di_watch_work(sum->watch, 1 + sum->of->leaves.order * sum->of->solution->bands))
       return;
     add_panel(sum, s, panel, choose_rule(sum->of, s, fmax(m, HR2DI_NEAR_ELLIPSE)), 0);
   }
@@ -218,17 +236,18 @@ static void add_near(hr2di_light_sum *sum, strip *s, hr2di_span part, hr2d_point
   if (s->varies > of->allowed && part.to > part.from) add_variation(sum, s, part);
 }
 
-/* The first rule that may take a part of leaf k as a whole, seen from x; NULL if it is near. */
-static const hr2di_rule *far_rule(const hr2di_light_source *of, size_t k, const strip *s,
-                                  hr2di_span part) {
-  if (!of->far) return NULL;
+/* The first rule that may take a part of an element as a whole, seen from x; NULL if it is
+   near, or a point that x touches. */
+static const hr2di_rule *far_rule(const hr2di_light_source *of, uint32_t element,
+                                  const strip *s, hr2di_span part) {
+  if (!of->far || !(part.to > part.from)) return NULL;
   const hr2d_point from = hr2di_block_along(s->from, s->along, part.from),
                    to = hr2di_block_along(s->from, s->along, part.to),
                    all = hr2di_point_minus(to, from);
   const double m = (sqrt(hr2di_point_dot(from, from)) + sqrt(hr2di_point_dot(to, to))) /
                    sqrt(hr2di_point_dot(all, all));
   for (int n = 0; n < HR2DI_LIGHT_FAR; n++)
-    if (m >= of->far[k].from[n]) return &of->rule[n];
+    if (m >= of->far[element].from[n]) return &of->rule[n];
   return NULL;
 }
 
@@ -247,36 +266,106 @@ static void add_error(hr2di_light_sum *sum, uint32_t patch, uint32_t element, hr
   for (size_t b = 0; b < bands; b++) sum->error[b] += angle * error[b];
 }
 
-/* The leaves of a stretch, from its right to its left.  Where two of them meet is rounded; they
-   share the direction, so that all of the angle is divided among them. */
+/* A patch that is seen from `x`. */
+typedef struct seen_patch {
+  hr2d_segment at;
+  hr2d_point whole; /* from end to end */
+  uint32_t patch;   /* which has the leaves */
+} seen_patch;
+
+/* An element of it from one fraction to another. */
+typedef struct seen_element {
+  uint32_t element;
+  double from, to;
+} seen_element;
+
+static strip strip_of(const hr2di_light_sum *sum, const seen_patch *p, const seen_element *e) {
+  const hr2di_light_source *of = sum->of;
+  const double size = e->to - e->from;
+  return (strip){.from = to_place(sum->x, p->at, e->from),
+                 .along = {size * p->whole.x, size * p->whole.y},
+                 .coefficient =
+                     of->leaves.value + e->element * of->leaves.order * of->solution->bands};
+}
+
+/* The largest element that begins with a leaf, ends before `to`, and is far; adds it.  Returns
+   whether there is one: it is not the leaf itself. */
+static int add_far(hr2di_light_sum *sum, const seen_patch *p, size_t leaf, double to,
+                   seen_element *e) {
+  const hr2di_light_source *of = sum->of;
+  const hr2d_element *tree = of->solution->hierarchy->element;
+  const hr2di_leaf *first = &of->leaves.leaf[leaf];
+  *e = (seen_element){p->patch, 0, 1};
+  while (e->element != first->element) {
+    if (e->from == first->from && e->to <= to) {
+      const strip s = strip_of(sum, p, e);
+      const hr2di_rule *rule = far_rule(of, e->element, &s, (hr2di_span){0, 1});
+      if (rule) add_panel(sum, &s, (hr2di_span){0, 1}, rule, 1);
+      if (rule) return 1;
+    }
+    const double middle =
+        e->from + hr2di_element_left_part(tree, e->element) * (e->to - e->from);
+    const int right = first->from >= middle;
+    *e = right ? (seen_element){tree[e->element].child + 1, middle, e->to}
+               : (seen_element){tree[e->element].child, e->from, middle};
+  }
+  return 0;
+}
+
+/* Jumps of B within a far element are no nearer than it is. */
+static void see_within(hr2di_light_sum *sum, const seen_patch *p, const seen_element *e) {
+  const strip s = strip_of(sum, p, e);
+  const hr2d_point to = hr2di_block_along(s.from, s.along, 1);
+  const double near = (sqrt(hr2di_point_dot(s.from, s.from)) + sqrt(hr2di_point_dot(to, to)) -
+                       sqrt(hr2di_point_dot(s.along, s.along))) /
+                      2;
+  see_end(sum, (hr2d_point){near, 0});
+}
+
+/* A leaf, or the part of it between two fractions of the patch. */
+static void add_leaf(hr2di_light_sum *sum, const seen_patch *p, size_t k, hr2di_span seen,
+                     hr2d_point right, hr2d_point left, double angle) {
+  const hr2di_light_source *of = sum->of;
+  const hr2di_leaf *leaf = &of->leaves.leaf[k];
+  const seen_element e = {leaf->element, leaf->from, hr2di_leaf_end(&of->leaves, p->patch, k)};
+  const double size = e.to - e.from;
+  const hr2di_span part = {fmax((seen.from - e.from) / size, 0),
+                           fmin((seen.to - e.from) / size, 1)};
+  strip s = strip_of(sum, p, &e);
+  s.varies = leaf->varies;
+  const hr2di_rule *rule = far_rule(of, leaf->element, &s, part);
+  if (rule)
+    add_panel(sum, &s, part, rule, 1);
+  else
+    add_near(sum, &s, part, right, left, angle);
+}
+
+/* The leaves of a stretch, from its right to its left, or elements in their place.  Where two
+   of them meet is rounded; they share the direction, so that all of the angle is divided among
+   them. */
 static void add_front(hr2di_light_sum *sum, const hr2di_polygon_arc *seen) {
   const hr2di_light_source *of = sum->of;
   const hr2d_segment at = of->scene->patch[seen->patch].scaled;
-  const hr2d_point whole = hr2di_point_minus(at.b, at.a);
-  const size_t each = of->solution->order * of->solution->bands;
-  const uint32_t patch = hr2di_light_patch(of, seen->patch);
+  const seen_patch p = {at, hr2di_point_minus(at.b, at.a), hr2di_light_patch(of, seen->patch)};
   hr2d_point right = seen->right;
-  if (patch == HR2DI_NOBODY) return;
-  size_t k = hr2di_leaf_at(&of->leaves, patch, seen->from);
+  if (p.patch == HR2DI_NOBODY) return;
+  size_t k = hr2di_leaf_at(&of->leaves, p.patch, seen->from);
   for (int last = 0; !last; k++) {
-    const double begin = of->leaves.leaf[k].from;
-    const double end = hr2di_leaf_end(&of->leaves, patch, k), size = end - begin;
-    last = !(end < seen->to);
-    const hr2d_point left = last ? seen->left : to_place(sum->x, at, end);
-    const hr2di_span part = {fmax((seen->from - begin) / size, 0),
-                             fmin((seen->to - begin) / size, 1)};
-    strip s = {.from = to_place(sum->x, at, begin),
-               .along = {size * whole.x, size * whole.y},
-               .varies = of->leaves.leaf[k].varies,
-               .coefficient = of->solution->value + of->leaves.leaf[k].element * each};
-    const hr2di_rule *rule = far_rule(of, k, &s, part);
-    if (rule)
-      add_panel(sum, &s, part, rule, 1);
+    const size_t begin = k;
+    seen_element e = {of->leaves.leaf[k].element, 0, hr2di_leaf_end(&of->leaves, p.patch, k)};
+    const int far =
+        of->far && of->leaves.leaf[k].from >= seen->from && add_far(sum, &p, k, seen->to, &e);
+    last = !(e.to < seen->to);
+    const hr2d_point left = last ? seen->left : to_place(sum->x, at, e.to);
+    if (far)
+      k = last ? k : hr2di_leaf_at(&of->leaves, p.patch, e.to) - 1;
     else
-      add_near(sum, &s, part, right, left,
+      add_leaf(sum, &p, k, (hr2di_span){seen->from, seen->to}, right, left,
                last && hr2di_point_same(right, seen->right) ? seen->angle : -1);
-    add_error(sum, patch, of->leaves.leaf[k].element, right, left);
+    add_error(sum, p.patch, e.element, right, left);
     if (hr2di_watch_work(sum->watch, 1)) return;
+    if (far && of->leaves.group && of->leaves.group[begin] != of->leaves.group[k])
+      see_within(sum, &p, &e);
     if (!last && of->leaves.group && of->leaves.group[k] != of->leaves.group[k + 1])
       see_end(sum, left);
     right = left;

@@ -13,7 +13,7 @@ enum { HR2DI_LIGHT_RULES = 15 };
 /* Those of the first of these rules may take a whole leaf that is far enough. */
 enum { HR2DI_LIGHT_FAR = 5 };
 
-/* From which size of the ellipse through the point on a rule may take a leaf. */
+/* From which size of the ellipse through the point on a rule may take an element. */
 typedef struct hr2di_light_far {
   float from[HR2DI_LIGHT_FAR];
 } hr2di_light_far;
@@ -23,9 +23,9 @@ typedef struct hr2di_light_source {
   const hr2d_solution *solution;
   const hr2d_scene *scene;
   hr2di_leaves leaves;
-  double allowed;       /* the error of ∫ B dω along a leaf, as a part of its angle times the
+  double allowed;       /* the error of ∫ B dω along an element, as a part of its angle times the
                            largest coefficient */
-  hr2di_light_far *far; /* of each leaf; NULL: none is far */
+  hr2di_light_far *far; /* of each element; NULL: none is far */
   hr2di_basis basis;
   hr2di_rule rule[HR2DI_LIGHT_RULES];
   int wants_flux;

@@ -25,10 +25,18 @@ typedef struct sector {
   uint32_t beside[2]; /* the patches on its right and on its left, or HR2DI_NOBODY */
 } sector;
 
+static uint32_t second_patch(const sector *s) {
+  return s->beside[0] == s->patch ? s->beside[1] : s->beside[0];
+}
+
+/* The order is strict, as a turn may begin at any of the sectors. */
 static int better(const sector *one, const sector *other) {
   if (one->fronts != other->fronts) return one->fronts > other->fronts;
   if (fabs(one->angle - other->angle) > SAME_ANGLE) return one->angle > other->angle;
-  return one->patch < other->patch;
+  if (one->patch != other->patch) return one->patch < other->patch;
+  if (second_patch(one) != second_patch(other)) return second_patch(one) < second_patch(other);
+  if (one->right.x != other->right.x) return one->right.x < other->right.x;
+  return one->right.y < other->right.y;
 }
 
 static double distance(hr2d_point p, hr2d_point q) {
@@ -91,7 +99,7 @@ static void end_sector(turn *t) {
 /* A half-edge from the vertex that is the side of a wall begins a sector. */
 static void begin_sector(turn *t, int32_t h) {
   const hr2di_triangle *at = &t->in->triangle[h >> 2];
-  t->now = (sector){.patch = HR2DI_NOBODY, .first = h};
+  t->now = (sector){.patch = HR2DI_NOBODY, .first = h, .beside = {HR2DI_NOBODY, HR2DI_NOBODY}};
   t->now.right = unit(t->centre, t->in->at[at->corner[((h & 3) + 1) % 3]]);
   add_side(t->scene, (hr2di_wall_side)~at->across[h & 3], t->centre, 0, &t->now);
 }
@@ -127,7 +135,8 @@ static int32_t find_wall(turn *t, int32_t h) {
 static int trace_round(turn *t, int32_t h) {
   const int32_t first = find_wall(t, h);
   if (first == HR2DI_SKY) return 0;
-  t->best = (sector){.fronts = -1, .patch = HR2DI_NOBODY};
+  t->best =
+      (sector){.fronts = -1, .patch = HR2DI_NOBODY, .beside = {HR2DI_NOBODY, HR2DI_NOBODY}};
   int32_t at = first;
   do {
     if (t->in->triangle[at >> 2].across[at & 3] < 0) begin_sector(t, at);
@@ -142,7 +151,10 @@ static void view_beside(turn *t, int32_t side) {
   const hr2d_point from = t->in->at[edge->from], to = t->in->at[edge->to];
   sector half[2];
   for (uint32_t k = 0; k < 2; k++) {
-    half[k] = (sector){.patch = HR2DI_NOBODY, .angle = acos(-1), .first = HR2DI_SKY};
+    half[k] = (sector){.patch = HR2DI_NOBODY,
+                       .angle = acos(-1),
+                       .first = HR2DI_SKY,
+                       .beside = {HR2DI_NOBODY, HR2DI_NOBODY}};
     half[k].right = k == 0 ? unit(from, to) : unit(to, from);
     add_side(t->scene, ((uint32_t)side & ~1u) | k, t->centre, 0, &half[k]);
   }

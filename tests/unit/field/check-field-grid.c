@@ -216,6 +216,36 @@ START_TEST(strips_behind_slits) {
 }
 END_TEST
 
+/* The paper's constants on thousands of leaves: elements take their place, whose views are off
+   by no more than an eighth of the tolerance.  Of so few columns none is interpolated. */
+START_TEST(staircases) {
+  randoms r = randoms_stream(test_seed(), 100 + _i);
+  plan p = {0};
+  plan_classes[_i].draw(&r, 8, &p);
+  const test_paint paint = {.r = &r, .emission = 1, .reflectance = 0.7};
+  field_stage s = field_stage_of(test_painted_scene(&p, &paint), 0.1, 1);
+  plan_free(&p);
+  for (int k = 0; k < 3; k++) {
+    hr2d_field_grid grid = around(&s, 4, 65);
+    grid.tolerance = (const double[]){.1, 1e-2, 1e-3}[k];
+    sheet is = draw_sheet(s.solution, grid, 1), right = by_points(s.solution, grid);
+    const gap g = compare(&is, &right);
+    const double range = range_of(&right), max = grid.tolerance / 8 * range;
+    ck_assert_uint_eq(g.places, 0);
+    ck_assert_uint_eq(is.counts.interpolated, 0);
+    if (!(range > 0)) continue; /* sampled outside */
+    ck_assert_msg(g.mean <= max && g.flux <= 3.15 * max, "%g: off by %g, flux by %g of %g",
+                  grid.tolerance, g.mean, g.flux, max);
+    if (getenv("HR2D_TEST_VERBOSE"))
+      fprintf(stderr, "%d %g: %.2g of what is allowed\n", _i, grid.tolerance, g.mean / max);
+    if (grid.tolerance > 1e-2) ck_assert_double_gt(g.mean, 0); /* they are not the leaves */
+    free_sheet(&is);
+    free_sheet(&right);
+  }
+  field_stage_clear(&s);
+}
+END_TEST
+
 /* Without a tolerance all nodes are exact; in an empty room few are needed with one. */
 START_TEST(exact_and_coarse) {
   field_stage s = field_stage_of(test_scene((const double[][6]){{0, 0, 2, 0, 1, .5},
@@ -286,4 +316,5 @@ END_TEST
 TEST_SUITE("field grid") {
   ADD_TESTS("field grid", exact_and_coarse, strips_behind_slits, statuses_of_grids);
   REPEAT_TESTS(plan_class_count + 4, "field grid", tolerances_are_met);
+  REPEAT_TESTS(plan_class_count, "field grid", staircases);
 }
