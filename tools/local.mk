@@ -22,6 +22,7 @@ SOLVE_SOURCES = \
 	tools/output/printable.c tools/output/printable.h \
 	tools/output/table.c tools/output/table.h \
 	tools/output/ticks.c tools/output/ticks.h \
+	tools/output/vtk.c tools/output/vtk.h \
 	tools/cli/commands.c tools/cli/commands.h \
 	tools/cli/names.c tools/cli/names.h \
 	tools/cli/numbers.c tools/cli/numbers.h \
@@ -67,7 +68,8 @@ SOLVE_SOURCES = \
 	tools/solve/csv.c \
 	tools/solve/json.c \
 	tools/solve/solve.h \
-	tools/solve/table.c
+	tools/solve/table.c \
+	tools/solve/vtk.c
 tools_hr2d_SOURCES = $(SOLVE_SOURCES) \
 	tools/main.c \
 	tools/cli/help.c tools/cli/help.h \

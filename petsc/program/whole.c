@@ -13,7 +13,7 @@ int job_follows_brightness(const options *o) {
 
 int job_is_whole(const options *o, const hr2d_scene *scene) {
   return job_follows_brightness(o) || options_targeted(o) || o->order > 1 || o->at.count > 0 ||
-         o->csv || o->draw || o->tiles || o->watch || o->error || o->enclose > 0 ||
+         o->csv || o->vtk || o->draw || o->tiles || o->watch || o->error || o->enclose > 0 ||
          hr2dpi_has_spectra(scene) || hr2dpi_has_daylight(scene);
 }
 

@@ -27,7 +27,7 @@ mkdir "$new" "$good"
 make_old() {
   rm -rf "$new"
   mkdir "$new"
-  for name in csv json mtx dat svg png pdf; do echo old >"$new/x.$name"; done
+  for name in csv json mtx dat vtp svg png pdf; do echo old >"$new/x.$name"; done
 }
 # Timing decides how many rows a study or a cost has, but no file of any kind is cut short.
 ends_well() {
@@ -39,6 +39,7 @@ ends_well() {
   *.dat) awk 'NF == 1 { if (left) exit bad = 1; left = $1; next } { left-- }
     END { exit bad || left }' "$1" ;;
   *.json) [ "$(head -n 1 "$1")$(tail -n 1 "$1")" = '{}' ] ;;
+  *.vtp) tail -n 1 "$1" | grep -q '</VTKFile>' ;;
   *.svg) tail -n 2 "$1" | grep -q '</svg>' ;;
   *.pdf) tail -n 1 "$1" | grep -q '%%EOF' ;;
   *.state) cp "$1" "$work/copy.state" && hr2d solve "$scene" --eps 0.25 --max-level 5 --quiet \
@@ -78,7 +79,7 @@ said() {
 # The commands that write, with everything they can write.
 arguments() { # arguments COMMAND
   case $1 in
-  solve) echo "solve $scene --eps 0.5 --max-level 5 --no-error --at 0:0.5 --csv $new/x.csv --json $new/x.json --draw $new/x.$format --no-fill --tiles $new/tiles.$format" ;;
+  solve) echo "solve $scene --eps 0.5 --max-level 5 --no-error --at 0:0.5 --csv $new/x.csv --json $new/x.json --vtk $new/x.vtp --draw $new/x.$format --no-fill --tiles $new/tiles.$format" ;;
   target) echo "solve $scene --target-error 1e-3 --json $new/x.json --csv $new/x.csv" ;;
   stages) echo "solve $scene --multigrid 1:0.5 --eps 0.25 --max-level 5 --no-error --state $new/x.state --csv $new/x.csv" ;;
   study) echo "study $scene --to 0.125 --steps 4 --csv $new/x.csv --json $new/x.json $plot" ;;

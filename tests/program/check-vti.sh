@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# `hr2d field --vtk`: the file has the numbers of the CSV file, as its format says, and as VTK reads
-# it (Debian: python3-vtk9, 240 MB with what it needs).  Without python3 this is skipped, without
+# `hr2d field --vtk` and `hr2d solve --vtk`: the file has the numbers of the CSV file, as its format
+# says, and as VTK reads it (Debian: python3-vtk9, 240 MB with what it needs).  Without python3 this is skipped, without
 # VTK the second half, which says so; where CI is set, a missing VTK is a failure.
 #
 # Environment: HR2D_PROGRAM, the program; HR2D_SRCDIR, the top of the sources.
@@ -54,5 +54,34 @@ for table in other short; do
   check "$table.csv is not the same" sh -c '! python3 "$@" 2>/dev/null' - \
     "$HR2D_SRCDIR/tests/program/vti.py" format "$work/room.vti" "$work/$table.csv"
 done
+
+# The walls: leaves as lines.
+cat >"$work/hot.geojson" <<'END'
+{"type": "FeatureCollection", "hr2d": {"background_temperature": 280}, "features": [
+  {"type": "Feature", "properties": {"temperature": 300, "emissivity": 0.5},
+   "geometry": {"type": "LineString", "coordinates": [[0, 0], [4, 0]]}},
+  {"type": "Feature", "properties": {"flux": 0, "emissivity": 0.8},
+   "geometry": {"type": "LineString", "coordinates": [[4, 1], [2, 1.5], [0, 1]]}}]}
+END
+walls_like() { # walls_like SCENE OPTION...
+  name=$1
+  shift
+  succeeds solve "$work/$name.geojson" --vtk "$work/$name.vtp" --csv "$work/$name.csv" \
+    --json "$work/$name.json" "$@"
+  set -- "$work/$name.vtp" "$work/$name.csv" "$work/$name.json"
+  check "walls of $name: the format" python3 "$HR2D_SRCDIR/tests/program/vtp.py" format "$@"
+  [ -z "$python" ] || check "walls of $name: VTK's reader" \
+    "$python" "$HR2D_SRCDIR/tests/program/vtp.py" vtk "$@"
+}
+walls_like room --eps 1 --no-error
+walls_like room --target-error 1e-3
+walls_like hot --eps 0.5
+awk -F, -v OFS=, 'NR == 3 { $9 += 1e-9 } { print }' "$work/hot.csv" >"$work/other.csv"
+sed '$d' "$work/hot.csv" >"$work/short.csv"
+for table in other short; do
+  check "$table.csv is not the same" sh -c '! python3 "$@" 2>/dev/null' - \
+    "$HR2D_SRCDIR/tests/program/vtp.py" format "$work/hot.vtp" "$work/$table.csv" "$work/hot.json"
+done
+expect 1 "^hr2d: $work/no/x.vtp: cannot be written" solve "$work/hot.geojson" --vtk "$work/no/x.vtp"
 
 summary check-vti

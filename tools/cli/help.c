@@ -69,7 +69,7 @@ void help_print(int command) {
   printf("Usage: hr2d %s %s\n%s", c->name, c->usage, c->description);
   for (int group = 0; group < GROUP_COUNT; group++) print_group(c, (option_group)group);
   const int single = strchr(c->examples, '\n')[1] == '\0';
-  printf("\nFor example:%s%s", single ? "" : "\n", c->examples);
+  printf("For example:%s%s", single ? "" : "\n", c->examples);
 }
 
 void help_print_version(void) {

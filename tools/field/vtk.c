@@ -1,40 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The field as VTK image data (.vti).  Arrays are doubles in base64, as text cannot hold NaN:
-   the length in bytes as 8 bytes, and then the numbers, in the byte order of the machine. */
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
+/* The field as VTK image data (.vti). */
+#include "output/vtk.h"
 
 #include "field/field.h"
-#include "output/complain.h"
 #include "output/output.h"
-#include "output/provenance.h"
-
-/* Bytes that wait until there are three. */
-typedef struct base64 {
-  FILE *stream;
-  unsigned char byte[3];
-  int count;
-} base64;
-
-static void put_three(base64 *b) {
-  static const char digit[] =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  const unsigned bits = (unsigned)b->byte[0] << 16 | (unsigned)b->byte[1] << 8 | b->byte[2];
-  for (int k = 0; k < 4; k++)
-    fputc(k <= b->count ? digit[bits >> (18 - 6 * k) & 63] : '=', b->stream);
-  memset(b->byte, 0, sizeof b->byte);
-  b->count = 0;
-}
-
-static void put_bytes(base64 *b, const void *from, size_t size) {
-  const unsigned char *byte = from;
-  for (size_t k = 0; k < size; k++) {
-    b->byte[b->count++] = byte[k];
-    if (b->count == 3) put_three(b);
-  }
-}
 
 /* Item k of a point, of an array with so many of them per point. */
 typedef double (*item_fn)(const field *f, size_t point, size_t band, size_t k);
@@ -69,56 +38,39 @@ static double kind(const field *f, size_t point, size_t band, size_t k) {
   return f->place[point];
 }
 
+typedef struct array {
+  const field *f;
+  size_t band, items;
+  item_fn item;
+} array;
+
+static double number(const void *ctx, size_t k) {
+  const array *a = ctx;
+  return a->item(a->f, k / a->items, a->band, k % a->items);
+}
+
 static void write_array(const field *f, FILE *stream, const char *name, size_t band,
                         size_t items, item_fn item) {
-  base64 b = {.stream = stream};
-  const uint64_t bytes = f->count * items * sizeof(double);
-  fprintf(stream,
-          "<DataArray type=\"Float64\" Name=\"%s\" NumberOfComponents=\"%zu\" "
-          "format=\"binary\">\n",
-          name, items);
-  put_bytes(&b, &bytes, sizeof bytes);
-  if (b.count) put_three(&b);
-  for (size_t k = 0; k < f->count * items; k++) {
-    const double value = item(f, k / items, band, k % items);
-    put_bytes(&b, &value, sizeof value);
-  }
-  if (b.count) put_three(&b);
-  fputs("\n</DataArray>\n", stream);
+  const array a = {f, band, items, item};
+  vtk_array(stream, name, VTK_DOUBLE, f->count, items, number, &a);
 }
 
 static double spacing(double low, double high, size_t count) {
   return count > 1 ? (high - low) / (double)(count - 1) : 1;
 }
 
-/* A string of VTK is the codes of its bytes, up to a 0. */
-static int write_provenance(FILE *stream) {
-  char *text = provenance_text();
-  if (!text) return complain_memory();
-  fputs("<FieldData>\n<DataArray type=\"String\" Name=\"provenance\" NumberOfTuples=\"1\" "
-        "format=\"ascii\">\n",
-        stream);
-  for (const char *c = text; *c; c++) fprintf(stream, "%d ", (unsigned char)*c);
-  fputs("0\n</DataArray>\n</FieldData>\n", stream);
-  free(text);
-  return 0;
-}
-
 int field_write_vtk(const field *f, const char *path) {
   output out;
   int status = output_open(&out, path);
-  const uint16_t one = 1;
   if (status) return status;
   const hr2d_field_grid *g = &f->grid;
+  vtk_begin(out.stream, "ImageData");
   fprintf(out.stream,
-          "<?xml version=\"1.0\"?>\n<VTKFile type=\"ImageData\" version=\"1.0\" "
-          "byte_order=\"%s\" header_type=\"UInt64\">\n"
           "<ImageData WholeExtent=\"0 %zu 0 %zu 0 0\" Origin=\"%.17g %.17g 0\" "
           "Spacing=\"%.17g %.17g 1\">\n",
-          *(const unsigned char *)&one ? "LittleEndian" : "BigEndian", g->columns - 1,
-          g->rows - 1, g->low.x, g->low.y, spacing(g->low.x, g->high.x, g->columns),
-          spacing(g->low.y, g->high.y, g->rows));
-  status = write_provenance(out.stream);
+          g->columns - 1, g->rows - 1, g->low.x, g->low.y,
+          spacing(g->low.x, g->high.x, g->columns), spacing(g->low.y, g->high.y, g->rows));
+  status = vtk_provenance(out.stream);
   fprintf(out.stream, "<Piece Extent=\"0 %zu 0 %zu 0 0\">\n<PointData>\n", g->columns - 1,
           g->rows - 1);
   for (size_t b = 0; b < f->bands; b++) {
@@ -133,6 +85,7 @@ int field_write_vtk(const field *f, const char *path) {
   write_array(f, out.stream, "sky", 0, 1, sky);
   write_array(f, out.stream, "place", 0, 1, kind);
   if (f->heat) write_array(f, out.stream, "temperature", 0, 1, temperature);
-  fputs("</PointData>\n</Piece>\n</ImageData>\n</VTKFile>\n", out.stream);
+  fputs("</PointData>\n", out.stream);
+  vtk_end(out.stream, "ImageData");
   return output_close(&out, status);
 }

@@ -50,6 +50,7 @@ static int write_outputs(const run *r, double total) {
   progress_end();
   if (options_want_table(o)) status = solve_print(r, total);
   if (o->csv && !status) status = solve_write_csv(r, o->csv);
+  if (o->vtk && !status) status = solve_write_vtk(r, o->vtk);
   if (o->draw && !status) status = draw_run(r, o->draw);
   if (o->json && !status) status = solve_write_json(r, total, o->json);
   return status;

@@ -19,6 +19,9 @@ int solve_print(const run *r, double total_seconds);
    scene with temperatures or fluxes the last column is T, of the average H. */
 int solve_write_csv(const run *r, const char *path);
 
+/* vtk.c: a line for each leaf, with B, H and T of it and of its patch. */
+int solve_write_vtk(const run *r, const char *path);
+
 /* json.c */
 int solve_write_json(const run *r, double total_seconds, const char *path);
 
