@@ -100,6 +100,7 @@ tools_hr2d_SOURCES = $(SOLVE_SOURCES) \
 	tools/factors/command.c \
 	tools/factors/csv.c \
 	tools/factors/elmer.c \
+	tools/factors/group.c \
 	tools/factors/factors.h \
 	tools/factors/json.c \
 	tools/factors/mtx.c \

@@ -479,6 +479,19 @@ class Solution:
             columns["heat"] = np.repeat(self.temperatures.heat, bands)
         return pandas.DataFrame(columns)
 
+    def write_npz(self, path: Any) -> None:
+        """Writes an .npz file of numpy: B, H, net_flux, names, segments and lengths of the patches,
+        and elements with element_B.
+
+        numpy.load(path)["B"] reads it again.
+        """
+        np.savez_compressed(path, B=self.B, H=self.H, net_flux=self.net_flux,
+                            names=np.array(self.scene.names), segments=self.scene.segments,
+                            lengths=self.scene.lengths, unit=self.scene.unit,
+                            element_B=self.element_B,
+                            **{f"element_{name}": self.elements[name] for name in
+                               ("a", "b", "child", "patch")})
+
     def to_xarray(self) -> Any:
         """An xarray.Dataset of B, H and net_flux with the dimensions patch and band, and the
         names and lengths of the patches; temperatures and heat as in to_dataframe()."""

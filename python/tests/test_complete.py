@@ -303,6 +303,16 @@ def test_data_frames():
     assert study.to_dataframe().L.tolist() == study.L.tolist()
 
 
+def test_npz(tmp_path):
+    s = make_hot().solve(epsilon=.3)
+    s.write_npz(tmp_path / "s.npz")
+    with np.load(tmp_path / "s.npz") as data:
+        assert np.array_equal(data["B"], s.B) and data["names"].tolist() == s.scene.names
+        assert np.array_equal(data["element_B"], s.element_B)
+        assert np.array_equal(data["element_patch"], s.elements["patch"])
+        assert not np.array_equal(data["B"], data["H"])
+
+
 def test_xarray():
     pytest.importorskip("xarray")
     scene = make_hot()

@@ -321,6 +321,51 @@ assert full == [[float(x) for x in line.split(",")] for line in lines]
 assert all(abs(sum(row) - p["row_sum"]) < 1e-14 for row, p in zip(full, d["patches"]))
 assert isinstance(d["seconds"], float)' "$work/f.json" "$work/f.csv"
 fi
+# ---- features
+usage "--group and --elmer exclude each other" factors "$far" --group --elmer a
+usage "'solve' has no option --group" solve "$far" --group
+cat >"$work/backs.geojson" <<'END'
+{"type": "FeatureCollection", "features": [
+  {"type": "Feature", "properties": {"name": "room"},
+   "geometry": {"type": "Polygon", "coordinates": [[[0, 0], [4, 0], [4, 3], [0, 3], [0, 0]]]}},
+  {"type": "Feature", "properties": {"name": "a/b", "sides": "both"},
+   "geometry": {"type": "LineString", "coordinates": [[1, 1], [2, 1], [3, 2]]}},
+  {"type": "Feature", "properties": {"name": "/1"},
+   "geometry": {"type": "LineString", "coordinates": [[1, 2], [1, 2.5]]}}]}
+END
+succeeds factors "$work/backs.geojson" --group --csv -
+check "names of features" [ "$(head -n 1 "$work/out")" = 'room,a/b,a/b (back),/1' ]
+cat >"$work/group.py" <<'END'
+import json, re, sys
+patches, features = (json.load(open(path)) for path in sys.argv[1:])
+name = [re.sub(r"(.)/\d+( \(back\))?$", r"\1\2", p["name"]) for p in patches["patches"]]
+length, area = {}, {}
+for g, p, row in zip(name, patches["patches"], patches["factors"]):
+    length[g] = length.get(g, 0) + p["length"]
+    for column, value in zip(row["columns"], row["values"]):
+        area[g, name[column]] = area.get((g, name[column]), 0) + p["length"] * value
+assert [f["name"] for f in features["patches"]] == list(length) and len(length) < len(name)
+seen = 0
+for f, row in zip(features["patches"], features["factors"]):
+    assert abs(f["length"] - length[f["name"]]) < 1e-12
+    assert abs(f["row_sum"] - sum(row["values"])) < 1e-14
+    for column, value in zip(row["columns"], row["values"]):
+        seen += 1
+        other = features["patches"][column]["name"]
+        assert abs(value - area[f["name"], other] / length[f["name"]]) < 1e-14, (f, other)
+assert seen == len(area)
+END
+for scene in "$scenes/partition.geojson" "$scenes/occluders-200.geojson" "$work/backs.geojson"; do
+  succeeds factors "$scene" --json "$work/f.json"
+  succeeds factors "$scene" --group --json "$work/g.json" --mtx "$work/g.mtx"
+  ! command -v python3 >/dev/null 2>&1 || check "factors of features of $scene" \
+    python3 "$work/group.py" "$work/f.json" "$work/g.json"
+done
+if command -v python3 >/dev/null 2>&1; then
+  sed 's/"values": \[0\./"values": [1./' "$work/g.json" >"$work/wrong.json"
+  check "wrong ones would be found" sh -c '! python3 "$@" 2>/dev/null' - "$work/group.py" \
+    "$work/f.json" "$work/wrong.json"
+fi
 # Lines pass an obstacle from (0.3, 0.5) to (0.7, 0.5) in a unit square on either side, by
 # crossed strings √0.34 − ½ on each.
 for scene in "$data/occluded.geojson" "$scenes/blk1.vs2"; do

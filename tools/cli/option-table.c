@@ -43,6 +43,8 @@ static const option_entry table[] = {
   {"mtx", "FILE|-", GROUP_OUTPUT, VALUE(path, mtx),
    .help = {{FACTORS, "the F_ij that are not 0, as Matrix Market coordinates"}},
    .rules = IS_OUTPUT},
+  {"group", NULL, GROUP_OUTPUT, VALUE(flag, group),
+   .help = {{FACTORS, "of features: patches NAME/1, NAME/2, ... are NAME"}}},
   {"elmer", "FILE|-", GROUP_OUTPUT, VALUE(path, elmer),
    .help = {{FACTORS, "the F_ij that are not 0, as ViewFactors.dat of Elmer"}},
    .rules = IS_OUTPUT},

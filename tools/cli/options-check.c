@@ -125,6 +125,9 @@ int options_check(const options *o, const given_options *given) {
   if (status) return status;
   if (o->resume && (!o->csv || output_is_stdout(o->csv)))
     return complain_usage("--resume needs --csv with a file");
+  if (o->group && o->elmer)
+    return complain_usage(
+        "--group and --elmer exclude each other: Elmer's surfaces are patches");
   if (o->multigrid.ratio > 0 && o->multigrid.from <= o->epsilon)
     return complain_usage("--multigrid: %g is not greater than --eps %g", o->multigrid.from,
                           o->epsilon);

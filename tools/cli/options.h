@@ -143,7 +143,7 @@ typedef struct options {
   place links_of;
   unsigned link_level;
   place_list beams_of;
-  int link_parents, plot_log, resume, law, csv_comment;
+  int link_parents, plot_log, resume, law, csv_comment, group;
   const char *json, *csv, *mtx, *elmer, *vtk, *draw, *tiles, *plot,
       *watch; /* file names; NULL: not given */
 } options;

@@ -14,17 +14,33 @@
 #include "output/progress.h"
 #include "output/table.h"
 
-/* Two sums and two errors for each row, and a row. */
+/* Two sums, two errors and a length for each row, and a row. */
 static int make_room(factors *f) {
-  const size_t n = f->patches;
+  const size_t n = f->count = hr2d_scene_patches(f->scene);
+  f->name = calloc(n, sizeof *f->name);
   f->row_sum =
-      n <= SIZE_MAX / 5 / sizeof *f->row_sum ? malloc(5 * n * sizeof *f->row_sum) : NULL;
-  if (!f->row_sum) return complain_memory();
+      n <= SIZE_MAX / 6 / sizeof *f->row_sum ? malloc(6 * n * sizeof *f->row_sum) : NULL;
+  if (!f->row_sum || !f->name) return complain_memory();
   f->missing = f->row_sum + n;
   f->row = f->missing + n;
   f->off[0] = f->row + n;
   f->off[1] = f->off[0] + n;
+  f->length = f->off[1] + n;
+  for (size_t k = 0; k < n; k++) {
+    f->name[k] = hr2d_scene_name(f->scene, k);
+    f->length[k] = hr2d_scene_length(f->scene, k);
+  }
   return 0;
+}
+
+static void release(factors *f) {
+  for (size_t k = 0; k < f->owns_names; k++) free((char *)(uintptr_t)f->name[k]);
+  free(f->name);
+  free(f->row_sum);
+  free(f->own.start);
+  free(f->own.column);
+  free(f->own.area);
+  hr2d_exchange_rows_destroy(f->rows);
 }
 
 static int integrate(factors *f) {
@@ -43,19 +59,22 @@ static int integrate(factors *f) {
   progress_end();
   if (status == HR2D_ENOMEM)
     return complain(f->options->scene, "out of memory: the factors of %zu patches do not fit",
-                    f->patches);
-  return status ? scene_complain(f->options, f->scene, status) : 0;
+                    f->count);
+  if (status) return scene_complain(f->options, f->scene, status);
+  f->start = hr2d_exchange_rows_start(f->rows);
+  f->column = hr2d_exchange_rows_column(f->rows);
+  f->area = hr2d_exchange_rows_area(f->rows);
+  return 0;
 }
 
 /* In a closed scene 1 − Σ F_ij is a small difference: the rounding errors of the sum are
    summed, too (Neumaier). */
 static void sum_rows(factors *f) {
-  const uint64_t *start = hr2d_exchange_rows_start(f->rows);
-  const double *area = hr2d_exchange_rows_area(f->rows);
-  for (size_t i = 0; i < f->patches; i++) {
-    const double length = hr2d_scene_length(f->scene, i);
+  const double *area = f->area;
+  for (size_t i = 0; i < f->count; i++) {
+    const double length = f->length[i];
     double sum = 0, lost = 0;
-    for (uint64_t k = start[i]; k < start[i + 1]; k++) {
+    for (uint64_t k = f->start[i]; k < f->start[i + 1]; k++) {
       const double next = sum + area[k];
       lost += sum >= area[k] ? (sum - next) + area[k] : (area[k] - next) + sum;
       sum = next;
@@ -67,18 +86,18 @@ static void sum_rows(factors *f) {
 }
 
 static void print_patches(const factors *f) {
-  const int width = table_name_width(f->scene);
+  const int width = table_names_width(f->name, f->count);
   table_patch_titles(width);
   printf("  %12s  %12s\n", "row sum", "1 - row sum");
-  for (size_t k = 0; k < f->patches; k++)
-    if (table_patch(f->scene, k, width))
+  for (size_t k = 0; k < f->count; k++)
+    if (table_row(k, f->count, f->name[k], f->length[k], width))
       printf("  %12.9f  %12.3e\n", f->row_sum[k], f->missing[k]);
   puts("");
 }
 
 static size_t find_worst(const factors *f) {
   size_t worst = 0;
-  for (size_t k = 1; k < f->patches; k++)
+  for (size_t k = 1; k < f->count; k++)
     if (fabs(f->missing[k]) > fabs(f->missing[worst])) worst = k;
   return worst;
 }
@@ -86,7 +105,7 @@ static size_t find_worst(const factors *f) {
 /* The worst rows. */
 static void print_cut_off(const factors *f) {
   double off[2] = {0, 0};
-  for (size_t i = 0; i < f->patches; i++)
+  for (size_t i = 0; i < f->count; i++)
     for (int k = 0; k < 2; k++) off[k] = fmax(off[k], f->off[k][i]);
   printf("cut off   images of the period make about %.1e of a row sum, at most %.1e\n", off[0],
          off[1]);
@@ -98,15 +117,16 @@ static void print_factors(const factors *f, double total_seconds) {
   const effort list[] = {{"exchange areas", n->exchange_areas},
                          {"visibility tests", n->visibility_tests}};
   scene_print(f->options, 10, f->cuts);
-  printf("patches   %zu\n", f->patches);
+  printf("patches   %zu\n", hr2d_scene_patches(f->scene));
+  if (f->options->group) printf("features  %zu\n", f->count);
   printf("pairs     %llu clear, %llu partly visible, %llu see nothing of each other\n",
          (unsigned long long)(n->exchange_areas - n->partial_pairs),
          (unsigned long long)n->partial_pairs, (unsigned long long)factors_unseen(f));
   print_patches(f);
   char name[64]; /* the table above has it whole */
-  printable_copy(name, sizeof name, hr2d_scene_name(f->scene, worst));
-  printf("worst     |1 - row sum| = %.3e, of patch %zu (%s)\n", fabs(f->missing[worst]), worst,
-         name);
+  printable_copy(name, sizeof name, f->name[worst]);
+  printf("worst     |1 - row sum| = %.3e, of %s %zu (%s)\n", fabs(f->missing[worst]),
+         f->options->group ? "feature" : "patch", worst, name);
   if (hr2d_scene_cut_off(f->scene) > 0) print_cut_off(f);
   table_print_work(list, sizeof list / sizeof *list);
   printf("seconds   factors %.3f, total %.3f\n", f->seconds, total_seconds);
@@ -131,15 +151,14 @@ int factors_command(const options *o) {
   if (!status) status = scene_load(o, o->force, &scene, &f.cuts);
   if (status) return status;
   f.scene = scene;
-  f.patches = hr2d_scene_patches(scene);
   status = make_room(&f);
   if (!status) status = integrate(&f);
+  if (!status && o->group) status = factors_group(&f);
   if (!status) {
     sum_rows(&f);
     status = report(&f, start);
   }
-  hr2d_exchange_rows_destroy(f.rows);
-  free(f.row_sum);
+  release(&f);
   hr2d_scene_destroy(scene);
   return status;
 }

@@ -10,11 +10,11 @@
 int factors_write_csv(const factors *f) {
   output out;
   int status = output_open(&out, f->options->csv);
-  const size_t n = f->patches;
+  const size_t n = f->count;
   if (status) return status;
   status = csv_begin(out.stream, f->options->csv_comment);
   for (size_t k = 0; k < n; k++) {
-    csv_text(out.stream, hr2d_scene_name(f->scene, k));
+    csv_text(out.stream, f->name[k]);
     fputc(k + 1 < n ? ',' : '\n', out.stream);
   }
   for (size_t i = 0; i < n && !ferror(out.stream); i++) {

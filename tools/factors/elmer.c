@@ -13,11 +13,10 @@
 int factors_write_elmer(const factors *f) {
   output out;
   const int status = output_open(&out, f->options->elmer);
-  const size_t n = f->patches;
+  const size_t n = f->count;
   if (status) return status;
-  const uint64_t *start = hr2d_exchange_rows_start(f->rows);
   for (size_t i = 0; i < n && !ferror(out.stream); i++) {
-    fprintf(out.stream, "%" PRIu64 "\n", start[i + 1] - start[i]);
+    fprintf(out.stream, "%" PRIu64 "\n", f->start[i + 1] - f->start[i]);
     factors_print_entries(f, i, out.stream);
   }
   return output_close(&out, 0);

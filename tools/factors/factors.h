@@ -11,8 +11,22 @@
 typedef struct factors {
   const options *options;
   const hr2d_scene *scene;
-  size_t patches;
-  hr2d_exchange_rows *rows;
+  hr2d_exchange_rows *rows; /* of patches */
+
+  /* Rows and columns of the matrix: patches, or with --group features. */
+  size_t count;
+  const char **name;
+  size_t owns_names; /* so many of them have to be freed */
+  double *length;    /* A_i */
+  const uint64_t *start;
+  const uint32_t *column;
+  const double *area;
+  struct {
+    uint64_t *start;
+    uint32_t *column;
+    double *area;
+  } own; /* with --group */
+
   double *row_sum; /* Σ F_ij */
   double *missing; /* 1 − Σ F_ij, without the rounding errors of the row sum */
   double *row;     /* one row of F_ij, with its zeros */
@@ -21,6 +35,9 @@ typedef struct factors {
   size_t cuts;    /* of --split-crossings */
   double seconds; /* for all exchange areas */
 } factors;
+
+/* group.c: makes rows of features of those of patches.  Returns 0 or EXIT_FAILED. */
+int factors_group(factors *f);
 
 /* row.c: returns row i of F_ij with its zeros, which lasts until the next call. */
 const double *factors_row(const factors *f, size_t i);

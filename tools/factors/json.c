@@ -15,7 +15,10 @@ static int write_member(FILE *stream, const char *key, json_t *value) {
 }
 
 static json_t *patch_entry(const factors *f, size_t k) {
-  json_t *patch = json_patch(f->scene, k);
+  json_t *patch = json_object();
+  json_put(&patch, "index", json_count(k));
+  json_put(&patch, "name", json_text(f->name[k]));
+  json_put(&patch, "length", json_number(f->length[k]));
   json_put(&patch, "row_sum", json_number(f->row_sum[k]));
   json_put(&patch, "missing", json_number(f->missing[k]));
   if (hr2d_scene_cut_off(f->scene) > 0) {
@@ -27,14 +30,10 @@ static json_t *patch_entry(const factors *f, size_t k) {
 
 /* Row i: the patches that patch i sees, which rise, and their F_ij. */
 static json_t *row(const factors *f, size_t i) {
-  const uint64_t *start = hr2d_exchange_rows_start(f->rows);
-  const uint32_t *column = hr2d_exchange_rows_column(f->rows);
-  const double *area = hr2d_exchange_rows_area(f->rows);
-  const double length = hr2d_scene_length(f->scene, i);
   json_t *object = json_object(), *columns = json_array(), *values = json_array();
-  for (uint64_t k = start[i]; k < start[i + 1]; k++) {
-    json_push(&columns, json_count(column[k]));
-    json_push(&values, json_number(area[k] / length));
+  for (uint64_t k = f->start[i]; k < f->start[i + 1]; k++) {
+    json_push(&columns, json_count(f->column[k]));
+    json_push(&values, json_number(f->area[k] / f->length[i]));
   }
   json_put(&object, "columns", columns);
   json_put(&object, "values", values);
@@ -46,7 +45,7 @@ static int write_list(FILE *stream, const char *key, const factors *f,
                       json_t *(*item)(const factors *, size_t)) {
   int status = 0;
   fprintf(stream, ",\n  \"%s\": [", key);
-  for (size_t k = 0; !status && !ferror(stream) && k < f->patches; k++) {
+  for (size_t k = 0; !status && !ferror(stream) && k < f->count; k++) {
     fputs(k ? ",\n    " : "\n    ", stream);
     status = json_write_value(stream, item(f, k));
   }

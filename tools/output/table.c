@@ -36,6 +36,15 @@ static void print_padded(const char *text, int width) {
   printf("%*s", width > n ? width - n : 0, "");
 }
 
+int table_names_width(const char *const *name, size_t count) {
+  int width = 4;
+  for (size_t k = 0; k < count; k++) {
+    const int n = count_columns(name[k]);
+    if (n > width) width = n;
+  }
+  return width;
+}
+
 int table_name_width(const hr2d_scene *scene) {
   int width = 4;
   for (size_t k = 0; k < hr2d_scene_patches(scene); k++) {
@@ -59,10 +68,15 @@ static int is_skipped(size_t k, size_t count) {
   return 1;
 }
 
-int table_patch(const hr2d_scene *scene, size_t k, int name_width) {
-  if (is_skipped(k, hr2d_scene_patches(scene))) return 0;
+int table_row(size_t k, size_t count, const char *name, double length, int name_width) {
+  if (is_skipped(k, count)) return 0;
   printf("%5zu  ", k);
-  print_padded(hr2d_scene_name(scene, k), name_width);
-  printf("  %12.6g", hr2d_scene_length(scene, k));
+  print_padded(name, name_width);
+  printf("  %12.6g", length);
   return 1;
+}
+
+int table_patch(const hr2d_scene *scene, size_t k, int name_width) {
+  return table_row(k, hr2d_scene_patches(scene), hr2d_scene_name(scene, k),
+                   hr2d_scene_length(scene, k), name_width);
 }

@@ -15,7 +15,8 @@ typedef struct effort {
 /* Prints the counters that are not 0, in lines of at most 79 columns. */
 void table_print_work(const effort *list, size_t count);
 
-/* The width of the column of patch names. */
+/* The width of a column of names, and of that of patch names. */
+int table_names_width(const char *const *name, size_t count);
 int table_name_width(const hr2d_scene *scene);
 
 /* The titles of the first columns of a table of patches: index, name and length. */
@@ -25,5 +26,8 @@ void table_patch_titles(int name_width);
    the last ones: returns 0 for the others, and prints one row in their place that has their
    number. */
 int table_patch(const hr2d_scene *scene, size_t k, int name_width);
+
+/* The same for row k of `count` that are no patches. */
+int table_row(size_t k, size_t count, const char *name, double length, int name_width);
 
 #endif
