@@ -16,6 +16,7 @@ EXTRA_DIST += \
 	doc/occlusion.md \
 	doc/panes.md \
 	doc/releasing.md \
+	doc/results.md \
 	doc/scene-files.md \
 	doc/speed.md \
 	doc/sun-and-sky.md \

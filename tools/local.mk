@@ -107,6 +107,7 @@ tools_hr2d_SOURCES = $(SOLVE_SOURCES) \
 	tools/factors/row.c \
 	tools/field/command.c \
 	tools/field/csv.c \
+	tools/field/factors.c \
 	tools/field/field.h \
 	tools/field/json.c \
 	tools/field/points.c \

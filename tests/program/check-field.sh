@@ -112,4 +112,41 @@ usage "--grid: not WxH" field "$furnace" --grid 0x4
 usage "--box: not four numbers" field "$furnace" --box 1,2,3
 usage "--points excludes" field "$furnace" --points "$work/one" --grid 3x3
 
+# ---- view factors of points: with black walls the mean is their sum with E
+cat >"$work/black.geojson" <<'END'
+{"type": "FeatureCollection", "hr2d": {"background": 3}, "features": [
+  {"type": "Feature", "properties": {"name": "a, b", "emission": 1},
+   "geometry": {"type": "LineString", "coordinates": [[0, 0], [4, 0]]}},
+  {"type": "Feature", "properties": {"name": "screen", "emission": 2},
+   "geometry": {"type": "LineString", "coordinates": [[1, 1], [2, 1.5]]}}]}
+END
+printf '1.5 0.5\n3 1\n1 2\n' >"$work/three"
+cat >"$work/factors.py" <<'END'
+import csv, sys
+points, rows = (list(csv.DictReader(open(path, newline=""))) for path in sys.argv[1:])
+light = {"a, b": 1, "screen": 2, "sky": 3, "back": 0}
+for k, point in enumerate(points):
+    own = [row for row in rows if int(row["point"]) == k]
+    assert all(row["x"] == point["x"] and row["y"] == point["y"] for row in own) and own
+    assert all((row["patch"] == "") == (row["name"] in ("sky", "back")) for row in own)
+    share = {row["name"]: float(row["share"]) for row in own}
+    assert abs(sum(share.values()) - 1) < 1e-14
+    assert abs(sum(share[name] * light[name] for name in share) - float(point["mean"])) < 1e-12
+assert {row["name"] for row in rows} == set(light) and rows[0]["patch"] == "0"
+END
+succeeds field "$work/black.geojson" --points "$work/three" --csv "$work/three.csv" \
+  --factors "$work/factors.csv"
+has_python() {
+  command -v python3 >/dev/null 2>&1
+}
+! has_python || check "factors of points make the mean" python3 "$work/factors.py" "$work/three.csv" \
+  "$work/factors.csv"
+sed 3d "$work/factors.csv" >"$work/less.csv"
+! has_python || check "one that is missing would be found" \
+  sh -c '! python3 "$@" 2>/dev/null' - "$work/factors.py" "$work/three.csv" "$work/less.csv"
+succeeds field "$work/black.geojson" --points "$work/three" --factors - --csv-comment --csv "$work/x.csv"
+check "on standard output" [ "$(sed -n 2p "$work/out")" = point,x,y,share,patch,name ]
+expect 1 "^hr2d: $work/no/x.csv: cannot be written" field "$work/black.geojson" --factors "$work/no/x.csv"
+[ ! -c /dev/full ] || expect 1 '^hr2d: /dev/full: cannot be written' field "$work/black.geojson" --factors /dev/full
+
 summary check-field

@@ -40,6 +40,8 @@ static const option_entry table[] = {
   {"csv-comment", NULL, GROUP_OUTPUT, VALUE(flag, csv_comment),
    .help = {{SOLVE | STUDY | COST | FACTORS | FIELD, "begin it with # and version, options, hash of SCENE"}},
    .needs = "csv", .rules = NO_PROVENANCE},
+  {"factors", "FILE|-", GROUP_OUTPUT, VALUE(path, factors),
+   .help = {{FIELD, "point,x,y,share,patch,name: what each point sees"}}, .rules = IS_OUTPUT},
   {"mtx", "FILE|-", GROUP_OUTPUT, VALUE(path, mtx),
    .help = {{FACTORS, "the F_ij that are not 0, as Matrix Market coordinates"}},
    .rules = IS_OUTPUT},

@@ -145,6 +145,7 @@ int options_check(const options *o, const given_options *given) {
 int options_check_outputs(const options *o) {
   int status = output_check(o->json);
   if (!status) status = output_check(o->csv);
+  if (!status) status = output_check(o->factors);
   if (!status) status = output_check(o->mtx);
   if (!status) status = output_check(o->elmer);
   if (!status) status = output_check(o->vtk);
@@ -157,5 +158,6 @@ int options_check_outputs(const options *o) {
 
 int options_want_table(const options *o) {
   return !o->quiet && !output_is_stdout(o->json) && !output_is_stdout(o->csv) &&
-         !output_is_stdout(o->mtx) && !output_is_stdout(o->elmer) && !output_is_stdout(o->vtk);
+         !output_is_stdout(o->factors) && !output_is_stdout(o->mtx) &&
+         !output_is_stdout(o->elmer) && !output_is_stdout(o->vtk);
 }

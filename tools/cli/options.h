@@ -144,8 +144,8 @@ typedef struct options {
   unsigned link_level;
   place_list beams_of;
   int link_parents, plot_log, resume, law, csv_comment, group;
-  const char *json, *csv, *mtx, *elmer, *vtk, *draw, *tiles, *plot,
-      *watch; /* file names; NULL: not given */
+  const char *json, *csv, *mtx, *elmer, *vtk, *draw, *tiles, *plot, *watch,
+      *factors; /* file names; NULL: not given */
 } options;
 
 /* Reads the command line.  Returns 0, or the exit status after an error message.  The strings

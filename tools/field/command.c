@@ -168,6 +168,7 @@ static int report(const field *f, const run *r, double start) {
   int status = 0;
   if (options_want_table(o)) print_field(f, clock_seconds() - start);
   if (o->csv) status = field_write_csv(f, o->csv);
+  if (o->factors && !status) status = field_write_factors(f, o->factors);
   if (o->json && !status) status = field_write_json(f, o->json);
   if (o->vtk && !status) status = field_write_vtk(f, o->vtk);
   if (o->draw && !status) status = draw_run(r, o->draw);

@@ -33,6 +33,10 @@ int field_read_points(field *f, const char *path);
    error that is not measured. */
 int field_write_csv(const field *f, const char *path);
 
+/* factors.c: point,x,y,share,patch,name for each patch that a point sees, and for the sky and
+   backs without a patch; the shares of a point sum to 1. */
+int field_write_factors(const field *f, const char *path);
+
 /* json.c */
 int field_write_json(const field *f, const char *path);
 
