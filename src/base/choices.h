@@ -32,10 +32,10 @@
    largest H, the next one has selected events as well, in scenes of no more patches than
    HR2DI_CHOICE_MANY_EVENTS.  A patch that gets little light past the ends of others shows kinks
    of which whole patches know nothing: errors were up to 9 times the target where H was 5e-5 of
-   the largest, 1.4 times at 1e-4 and 2.5 times at 4e-3.  Half and twice change nothing, as none
-   of the nine scenes is so dim; in dim ones of a dozen patches: 1.5 (.80 to 2.5) at 1e-2, 1.7
-   (.48 to 3.6) at 1e-3. */
-#define HR2DI_CHOICE_DIM 1e-2
+   the largest, 2.5 times at 4e-3 and 20 times at 2e-2.  Half and twice change nothing, as none
+   of the nine scenes is so dim; in six dim ones of up to a dozen patches: 1.7 (.80 to 3.1) at
+   1e-2, 1.4 (.48 to 3.6) at 1e-3. */
+#define HR2DI_CHOICE_DIM 3e-2
 
 /* Their least order below HR2DI_CHOICE_ORDER_3_ERROR: blocks of shaded pairs take about as long
    at any low order, and links become fewer.  2: 1.2 (.90 to 1.9) at 1e-3, 2.2 (1.1 to 5.5) at
