@@ -74,6 +74,8 @@ dist_scenes_DATA = \
 	examples/scenes/par-near.geojson \
 	examples/scenes/partition.geojson \
 	examples/scenes/screened-room.geojson \
+	examples/scenes/greenhouse.geojson \
+	examples/scenes/radiation-shields.geojson \
 	examples/scenes/solar-panels.geojson \
 	examples/scenes/square-room.geojson \
 	examples/scenes/street-canyon.geojson

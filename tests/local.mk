@@ -69,6 +69,7 @@ SUITES = \
 	tests/paper/check-theorem.c \
 	tests/unit/oracle/check-squares.c \
 	tests/unit/solution/check-period-points.c \
+	tests/unit/solution/check-shields.c \
 	tests/unit/solution/check-points.c \
 	tests/unit/solution/check-emissivity.c \
 	tests/unit/solution/check-heat-bands.c \

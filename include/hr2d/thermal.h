@@ -19,10 +19,17 @@
  * one temperature is in equilibrium to all digits, for any ε. The answer is that of a scene
  * with these E and ρ, bit for bit.
  *
+ * **Shields.** #HR2D_HEAT_SHIELD makes a patch a side of a sheet so thin that both sides have
+ * one temperature at each place, and that gives no net heat there, as a radiation shield: ε(σT⁴
+ * − H) + ε′(σT⁴ − H′) = 0 with ε′ and H′ of the other side. HR2D_SIDES_BOTH adds two sides that
+ * are alike; for sides that differ add each. In one band that is a pane (scene.h), exactly:
+ * with τ = εε′/(ε + ε′) and ρ = 1 − τ on both sides. B − H of the back is the heat that goes
+ * through from the front.
+ *
  * **Average and points.** On a patch of given q, T differs from point to point. The temperature
  * of the patch is that of its average H + q/ε, the mean of T⁴; for points there is
- * hr2d_solution_gather_temperature(). The two sides of a patch do not exchange heat: each has
- * the q that is given.
+ * hr2d_solution_gather_temperature(). The two sides of a patch of given q do not exchange heat:
+ * each has the q that is given.
  *
  * **Existence.** Patches of given q that exchange heat only with each other, in a closed part
  * of the scene, have no solution, or one at every temperature: hr2d_solve() and
@@ -36,7 +43,8 @@
  * bands: B_b = ε_b f_b(T)σT⁴ + (1 − ε_b)H_b. In several bands such a patch has one T, and q is
  * the mean over its length: Σ_b ε_b (f_b(T)σT⁴ − H̄_b) = q with the averages H̄_b. (In one
  * band every point of the patch has this q and its own T. The two models agree in the limit
- * if a wall is cut into short patches.) These T are unique. hr2d_solve() finds those of its
+ * if a wall is cut into short patches.) So has a shield, and its balance is that of both sides.
+ * These T are unique. hr2d_solve() finds those of its
  * links, by Newton's method
  * over linear solves, 10 to 50 times the cost of one. So does hr2d_solve_to(), and its account
  * has their part of the error. hr2d_target::seconds is a budget of the solves; the
@@ -78,7 +86,8 @@ extern "C" {
 typedef enum hr2d_heat {
   HR2D_HEAT_NONE = 0,    /**< E and ρ */
   HR2D_HEAT_TEMPERATURE, /**< T and ε */
-  HR2D_HEAT_FLUX         /**< q and ε */
+  HR2D_HEAT_FLUX,        /**< q and ε */
+  HR2D_HEAT_SHIELD       /**< ε of a side of a sheet without net heat */
 } hr2d_heat;
 
 /**
@@ -96,9 +105,10 @@ typedef double (*hr2d_emissivity_fn)(void *ctx, double kelvin, size_t band);
 /** The thermal properties of a patch. Start from #HR2D_THERMAL_INIT. */
 typedef struct hr2d_thermal {
   size_t struct_size;       /**< so that the struct can grow */
-  hr2d_heat given;          /**< the meaning of `value`: a temperature or a flux */
-  double value;             /**< T ≥ 0 in kelvin, or q in W/m² */
-  const double *emissivity; /**< ε in (0,1] with a flux, in [0,1] with a temperature; copied */
+  hr2d_heat given;          /**< the meaning of `value`: a temperature or a flux; or a shield */
+  double value;             /**< T ≥ 0 in kelvin, or q in W/m²; 0 of a shield */
+  const double *emissivity; /**< ε in (0,1] with a flux or of a shield, in [0,1] with a
+                                 temperature; copied */
   size_t emissivity_bands;  /**< number of values in `emissivity`: one per band, or one for all;
                                  0: ε = 1 */
   const double *kelvin; /**< for a table: the temperatures of its entries, which rise; copied */
@@ -130,12 +140,14 @@ HR2D_API void hr2d_thermal_init(hr2d_thermal *thermal, size_t size);
  * @retval HR2D_OK      success
  * @retval HR2D_ENOMEM  an allocation failed
  * @retval HR2D_EINVAL  as hr2d_scene_add(); `patch` has emission or reflectance; `given` is
- *                      neither; there are both values and a function for ε, or a table without
- *                      values; or `struct_size` is not set
+ *                      none of them; a shield has a value; there are both values and a function
+ * for ε, or a table without values; or `struct_size` is not set
  * @retval HR2D_ECALLBACK  `emissivity_of` gives no emissivity for a given T
+ * @retval HR2D_EUNSUPPORTED  the emissivity of a shield depends on temperature
  * @retval HR2D_ESTATE  the scene is committed
  * @retval HR2D_ESCENE  as hr2d_scene_add(); T is negative, so large that E is beyond a double,
- *                      or not finite; q is not finite; ε is outside of its range; or several ε
+ *                      or not finite; q is not finite; ε is outside of its range; a flux or a
+ *                      shield has a transmittance, or ε + τ > 1; or several ε
  *                      are given that are not one for each band of the wavelengths; or the
  *                      temperatures of a table are negative or do not rise
  *

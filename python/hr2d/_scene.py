@@ -211,7 +211,8 @@ class Scene:
     def add(self, shape: Any, *, emission: Optional[Values] = None,
             reflectance: Optional[Values] = None, temperature: Optional[float] = None,
             flux: Optional[float] = None, emissivity: Optional[Values] = None,
-            transmittance: Optional[Values] = None, back: Optional[Mapping[str, Any]] = None,
+            transmittance: Optional[Values] = None, shield: Optional[bool] = None,
+            back: Optional[Mapping[str, Any]] = None,
             name: Optional[str] = None, sides: Optional[str] = None,
             faces: Optional[str] = None) -> range:
         """Adds patches and returns their indices.
@@ -230,6 +231,9 @@ class Scene:
             [T, value] or [T, value per band, …]; 1 by default.
         transmittance
             Of a pane, which scatters light to both sides; with sides="both".
+        shield
+            True: a sheet of one temperature without net heat, with an emissivity and
+            sides="both".
         back
             Properties of the other side where they differ, as {"reflectance": .1}; with
             sides="both".
@@ -249,7 +253,8 @@ class Scene:
                                              "reflectance": reflectance,
                                              "temperature": temperature, "flux": flux,
                                              "emissivity": emissivity,
-                                             "transmittance": transmittance, "back": back,
+                                             "transmittance": transmittance, "shield": shield,
+                                             "back": back,
                                              "sides": sides, "faces": faces}))
 
     def add_text(self, text: Union[str, bytes]) -> range:

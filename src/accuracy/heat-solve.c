@@ -26,6 +26,7 @@
 #include "estimate/importance.h"
 #include "hierarchy/hierarchy-impl.h"
 #include "links/linkset-impl.h"
+#include "scene/panes.h"
 #include "solution/solution-impl.h"
 #include "solve/heat-scene.h"
 
@@ -67,8 +68,7 @@ static hr2d_status set_important(heat_search *s) {
   s->important = hr2di_alloc(&s->scene->alloc, patches, sizeof *s->important);
   if (!s->important) return HR2D_ENOMEM;
   for (size_t k = 0; k < patches; k++)
-    if (hr2di_is_important(&s->given, k) ||
-        hr2d_scene_heat(s->scene, k, NULL) == HR2D_HEAT_FLUX)
+    if (hr2di_is_important(&s->given, k) || hr2di_scene_has_flux(s->scene, k))
       s->important[count++] = k;
   s->how.important = s->important;
   s->how.important_count = count;
@@ -130,9 +130,9 @@ static void set_unit_errors(heat_search *s, hr2di_heat_balance *h) {
   for (size_t k = 0; k < h->count; k++) h->old[k] = 0;
   for (size_t b = 0; b < bands; b++) {
     const double min = s->given.floor * largest(h->average, s->scene->patches, bands, b);
-    for (size_t k = 0; k < h->count; k++)
-      h->old[k] += (1 - hr2d_scene_reflectance(s->frozen, h->patch[k], b)) *
-                   fmax(h->average[h->patch[k] * bands + b], min);
+    for (size_t m = 0; m < h->sides; m++)
+      h->old[h->of[m]] += (1 - hr2d_scene_reflectance(s->frozen, h->patch[m], b)) *
+                          fmax(h->average[h->patch[m] * bands + b], min);
   }
   s->left = 0;
   for (size_t k = 0; k < h->count; k++)
@@ -160,9 +160,9 @@ static double worst_point(const heat_search *s, const hr2di_heat_balance *h,
   double worst = 0;
   for (size_t b = 0; b < bands; b++) {
     double off = 0;
-    for (size_t k = 0; k < h->count; k++)
-      off = fmax(off, fabs(h->rise[k * bands + b]) * h->step[k] /
-                          (1 - hr2d_scene_reflectance(s->frozen, h->patch[k], b)));
+    for (size_t m = 0; m < h->sides; m++)
+      off = fmax(off, fabs(h->rise[m * bands + b]) * h->step[h->of[m]] /
+                          (1 - hr2d_scene_reflectance(s->frozen, h->patch[m], b)));
     if (off > 0) worst = fmax(worst, off / largest(radiosity, s->scene->patches, bands, b));
   }
   return worst;
@@ -179,8 +179,9 @@ static hr2d_status measure_growth(heat_search *s, hr2di_heat_balance *h) {
   memcpy(irradiance, h->average, values * sizeof *irradiance);
   for (size_t k = 0; k < values; k++) {
     const size_t patch = k / s->scene->bands, band = k % s->scene->bands;
+    const size_t other = hr2di_scene_other_side(s->frozen, patch) * s->scene->bands + band;
     b[k] = hr2d_scene_emission(s->frozen, patch, band) +
-           hr2d_scene_reflectance(s->frozen, patch, band) * irradiance[k];
+           hr2di_pane_sum(s->frozen, patch, band, irradiance[k], irradiance[other]);
   }
   hr2d_status status = hr2di_heat_balance_spread(h, h->old, h->step);
   for (size_t k = 0; k < h->count; k++) h->step[k] = fmax(h->step[k], 0);
@@ -193,7 +194,7 @@ static hr2d_status measure_growth(heat_search *s, hr2di_heat_balance *h) {
 
 static void keep_emission(const heat_search *s, const hr2di_heat_balance *h, double *emission) {
   const size_t bands = s->scene->bands;
-  for (size_t m = 0; m < h->count * bands; m++)
+  for (size_t m = 0; m < h->sides * bands; m++)
     emission[m] = hr2d_scene_emission(s->frozen, h->patch[m / bands], m % bands);
 }
 
@@ -204,9 +205,9 @@ static void measure_move(heat_search *s, const hr2di_heat_balance *h, const doub
     double max = 0;
     for (size_t k = 0; k < s->scene->patches; k++)
       max = fmax(max, hr2d_scene_emission(s->frozen, k, b));
-    for (size_t k = 0; k < h->count; k++) {
-      const double is = hr2d_scene_emission(s->frozen, h->patch[k], b);
-      const double change = fabs(is - before[k * bands + b]);
+    for (size_t m = 0; m < h->sides; m++) {
+      const double is = hr2d_scene_emission(s->frozen, h->patch[m], b);
+      const double change = fabs(is - before[m * bands + b]);
       if (change > 0) s->moved = fmax(s->moved, change / fmax(is, s->given.floor * max));
     }
   }
@@ -215,10 +216,10 @@ static void measure_move(heat_search *s, const hr2di_heat_balance *h, const doub
 /* The errors of the balance go to the patches. */
 static void put_errors(heat_search *s, const hr2di_heat_balance *h) {
   const hr2d_error e = s->account.irradiance;
-  for (size_t k = 0; k < h->count; k++) {
-    hr2di_found *found = &s->frozen->found[h->patch[k]];
-    found->estimate = e.estimate * h->step[k];
-    found->bound = (e.bound + s->left) * h->step[k];
+  for (size_t m = 0; m < h->sides; m++) {
+    hr2di_found *found = &s->frozen->found[h->patch[m]];
+    found->estimate = e.estimate * h->step[h->of[m]];
+    found->bound = (e.bound + s->left) * h->step[h->of[m]];
   }
 }
 
@@ -229,7 +230,7 @@ static hr2d_status settle_own(heat_search *s) {
   hr2d_linkset *links = s->solution->own_links;
   const hr2d_solve_options options = options_of(&s->how);
   hr2d_status status = hr2di_heat_balance_init(&h, s->frozen, links, &options);
-  double *before = hr2di_alloc(&s->scene->alloc, h.count * s->scene->bands + 1, sizeof *before);
+  double *before = hr2di_alloc(&s->scene->alloc, h.sides * s->scene->bands + 1, sizeof *before);
   if (!status && !before) status = HR2D_ENOMEM;
   if (!status) {
     keep_emission(s, &h, before);

@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "accuracy/target.h"
+#include "base/alloc.h"
 #include "base/black-body.h"
 #include "base/sized-struct.h"
 #include "estimate/importance.h"
@@ -60,6 +61,24 @@ static double error_of_found(const reader *r, size_t k, double h, double off) {
               hr2di_black_body_kelvin(high) - kelvin);
 }
 
+/* Of a shield in the only band, from H of both sides. */
+static hr2d_temperature_state find_shield(const reader *r, size_t k, double largest,
+                                          const hr2d_temperatures *to) {
+  const size_t other = hr2di_scene_other_side(r->scene, k);
+  const double f =
+      hr2di_shield_radiance(r->scene, k, hr2d_solution_irradiance(r->solution, k, 0),
+                            hr2d_solution_irradiance(r->solution, other, 0));
+  const double base = hr2di_shield_radiance(r->scene, k, counted(r, k, 0, largest),
+                                            counted(r, other, 0, largest));
+  const double kelvin = hr2di_black_body_kelvin(f);
+  put(to->kelvin, k, kelvin);
+  put(to->estimate, k, error_of_temperature(f, r->error.estimate * base));
+  put(to->bound, k,
+      error_of_temperature(f, r->error.bound * base + 4 * DBL_EPSILON * f) +
+          2 * DBL_EPSILON * kelvin);
+  return HR2D_TEMPERATURE_FOUND;
+}
+
 /* Of a patch with a flux in the only band.  A function that gives no emissivity leaves NaN. */
 static hr2d_temperature_state find(const reader *r, size_t k, double largest,
                                    const hr2d_temperatures *to) {
@@ -68,6 +87,7 @@ static hr2d_temperature_state find(const reader *r, size_t k, double largest,
   const double rounding = 4 * DBL_EPSILON * (h + fabs(f - h));
   const double base = counted(r, k, 0, largest);
   if (!hr2di_scene_lit(r->scene, k)) return HR2D_TEMPERATURE_UNLIT;
+  if (hr2di_shield_is(r->scene, k)) return find_shield(r, k, largest, to);
   if (f < 0) return HR2D_TEMPERATURE_IMPOSSIBLE;
   put(to->kelvin, k, hr2di_black_body_kelvin(f));
   put(to->estimate, k, error_of_found(r, k, h, r->error.estimate * base));
@@ -99,7 +119,7 @@ static hr2d_temperature_state state_of(const reader *r, size_t k, double largest
   put(to->estimate, k, NAN);
   put(to->bound, k, NAN);
   if (heat == HR2D_HEAT_NONE) return HR2D_TEMPERATURE_NONE;
-  if (heat == HR2D_HEAT_FLUX)
+  if (hr2di_scene_has_flux(r->scene, k))
     return r->scene->found ? find_settled(r, k, to) : find(r, k, largest, to);
   put(to->kelvin, k, value);
   put(to->estimate, k, 0);
@@ -194,20 +214,38 @@ hr2d_status hr2d_solution_temperatures(const hr2d_solution *solution, const hr2d
 static double kelvin_of_patch(const hr2d_scene *scene, size_t patch) {
   double value;
   const hr2d_heat heat = hr2d_scene_heat(scene, patch, &value);
-  if (heat != HR2D_HEAT_FLUX) return heat == HR2D_HEAT_TEMPERATURE ? value : NAN;
+  if (!hr2di_scene_has_flux(scene, patch)) return heat == HR2D_HEAT_TEMPERATURE ? value : NAN;
   if (!scene->found || !hr2di_scene_lit(scene, patch)) return NAN;
   return hr2di_black_body_kelvin(fmax(scene->found[patch].radiance, 0));
+}
+
+/* Of a shield in one band, at points of a side. */
+static hr2d_status gather_shield(const hr2d_solution *solution, size_t patch, const double *t,
+                                 size_t count, double *kelvin) {
+  const hr2d_scene *scene = hr2di_solution_scene(solution);
+  const size_t other = hr2di_scene_other_side(scene, patch);
+  double *space = hr2di_alloc(&solution->alloc, 2 * count + 1, sizeof *space);
+  if (!space) return HR2D_ENOMEM;
+  double *place = space, *passed = space + count;
+  for (size_t k = 0; k < count; k++) place[k] = 1 - t[k];
+  hr2d_status status = hr2d_solution_gather_irradiance(solution, patch, t, count, kelvin);
+  if (!status) status = hr2d_solution_gather_irradiance(solution, other, place, count, passed);
+  for (size_t k = 0; k < count && !status; k++)
+    kelvin[k] =
+        hr2di_black_body_kelvin(hr2di_shield_radiance(scene, patch, kelvin[k], passed[k]));
+  hr2di_alloc_free(&solution->alloc, space);
+  return status;
 }
 
 hr2d_status hr2d_solution_gather_temperature(const hr2d_solution *solution, size_t patch,
                                              const double *t, size_t count, double *kelvin) {
   if (!hr2di_solution_has(solution, patch, 0) || (count && (!t || !kelvin))) return HR2D_EINVAL;
   const hr2d_scene *scene = hr2di_solution_scene(solution);
-  if (hr2d_scene_heat(scene, patch, NULL) != HR2D_HEAT_FLUX || scene->found ||
-      !hr2di_scene_lit(scene, patch)) {
+  if (!hr2di_scene_has_flux(scene, patch) || scene->found || !hr2di_scene_lit(scene, patch)) {
     for (size_t k = 0; k < count; k++) kelvin[k] = kelvin_of_patch(scene, patch);
     return HR2D_OK;
   }
+  if (hr2di_shield_is(scene, patch)) return gather_shield(solution, patch, t, count, kelvin);
   const hr2d_status status = hr2d_solution_gather_irradiance(solution, patch, t, count, kelvin);
   for (size_t k = 0; k < count && !status; k++) {
     const double f = hr2di_emissivity_radiance(scene, patch, kelvin[k]);

@@ -96,9 +96,9 @@ static const meant properties_meant[] = {
     {"twosided", "sides", BOTH}};
 
 /* Where the members of the format belong. */
-static const char *const of_properties[] = {
-    "back", "emission",    "emissivity", "faces",       "flux",
-    "name", "reflectance", "sides",      "temperature", "transmittance"};
+static const char *const of_properties[] = {"back",  "emission",    "emissivity",   "faces",
+                                            "flux",  "name",        "reflectance",  "shield",
+                                            "sides", "temperature", "transmittance"};
 static const char *const of_scene[] = {
     "background", "background_temperature", "medium", "period", "sky", "sun", "wavelengths"};
 
@@ -137,6 +137,7 @@ static int note_spelling(hr2di_geojson *reader, const json_t *object, const char
 static int is_lonely(const json_t *properties, const char *key) {
   return !strcmp(key, "emissivity") && !hr2di_geojson_member(properties, "temperature") &&
          !hr2di_geojson_member(properties, "flux") &&
+         !hr2di_geojson_member(properties, "shield") &&
          !hr2di_geojson_member(properties, "reflectance");
 }
 
@@ -307,7 +308,8 @@ hr2d_status hr2di_geojson_note_feature(hr2di_geojson *reader, const json_t *feat
 
 /* What a feature has of its geometry and its name holds for both sides. */
 static void note_back_member(hr2di_geojson *reader, const json_t *back, const char *key) {
-  static const char *const of_feature[] = {"back", "faces", "name", "sides"};
+  static const char *const of_feature[] = {"back", "faces", "name", "shield", "sides"};
+  if (!strcmp(key, "emissivity")) return; /* the feature may have the temperature */
   if (find(of_feature, COUNT(of_feature), in_small_letters(key).text))
     hr2di_notes_add(&reader->notes, HR2D_WARNING_IGNORED, key, reader->label,
                     "both sides have it of the feature");

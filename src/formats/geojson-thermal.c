@@ -89,11 +89,30 @@ static hr2d_status read_emissivity(hr2di_geojson *reader, const json_t *json) {
   return status;
 }
 
+/* "shield": true, beside an emissivity alone. */
+static hr2d_status read_shield(hr2di_geojson *reader, const json_t *properties) {
+  static const char *const others[] = {"emission", "reflectance", "transmittance",
+                                       "temperature", "flux"};
+  for (size_t k = 0; k < sizeof others / sizeof *others; k++)
+    if (hr2di_geojson_member(properties, others[k]))
+      return hr2di_message_fail(reader->message, HR2D_ESCENE,
+                                "%s: %s: a shield takes the temperature that its heat of 0 "
+                                "asks for: give it an \"emissivity\" alone",
+                                reader->label, others[k]);
+  reader->thermal.given = HR2D_HEAT_SHIELD;
+  return read_emissivity(reader, hr2di_geojson_member(properties, "emissivity"));
+}
+
 hr2d_status hr2di_geojson_thermal(hr2di_geojson *reader, const json_t *properties) {
-  const json_t *json;
+  const json_t *json = hr2di_geojson_member(properties, "shield");
   const char *key = NULL;
   hr2d_thermal *t = &reader->thermal;
   *t = (hr2d_thermal)HR2D_THERMAL_INIT;
+  if (json && !json_is_boolean(json))
+    return hr2di_message_fail(reader->message, HR2D_ESYNTAX,
+                              "%s: shield: must be true or false, not %s", reader->label,
+                              hr2di_geojson_kind(json));
+  if (json_is_true(json)) return read_shield(reader, properties);
   hr2d_status status = choose(reader, properties, &json, &key);
   if (status || !json) return status;
   status = read_number(reader, reader->label, key, json, &t->value);

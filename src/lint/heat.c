@@ -84,8 +84,8 @@ static hr2d_status warn_of_shields(const hr2di_lint *lint) {
   return hr2di_lint_warn(
       lint, (hr2d_warning){.code = HR2D_WARNING_SHIELD, .patches = 1, .patch = {first}},
       "%s%s: each side has the flux that is given, so that no heat goes through, and the sides "
-      "have two temperatures: a thin sheet, such as a radiation shield, has one; give it as "
-      "\"temperature\", and change that until the fluxes of both sides add up to 0",
+      "have two temperatures: a thin sheet, such as a radiation shield, has one; write "
+      "\"shield\": true in the place of the flux",
       hr2di_patch_label(scene, first).text, more);
 }
 

@@ -121,8 +121,9 @@ static void add_heat(const hr2d_operator *op, size_t patch, const double *by_emi
   for (size_t b = 0; b < bands && heat != HR2D_HEAT_NONE; b++) {
     const double rest = hr2di_scene_absorptance(relit, patch, b);
     const double rise = by_emission[patch * bands + b];
-    if (heat == HR2D_HEAT_FLUX && to->reflectance) to->reflectance[patch * bands + b] = NAN;
-    if (heat == HR2D_HEAT_FLUX) continue;
+    if (heat != HR2D_HEAT_TEMPERATURE && to->reflectance)
+      to->reflectance[patch * bands + b] = NAN;
+    if (heat != HR2D_HEAT_TEMPERATURE) continue;
     add_to(to->reflectance, patch * bands + b,
            -rise * hr2di_scene_band_part(op->scene, kelvin, b) * black);
     if (kelvin > 0)

@@ -46,7 +46,7 @@ static hr2d_status take_surface(hr2d_operator *op, const hr2d_values *v, int is_
                                 size_t light, size_t k) {
   const size_t bands = op->scene->bands;
   const hr2d_heat heat = hr2d_scene_heat(op->scene, k, NULL);
-  const int none = is_emission ? heat != HR2D_HEAT_NONE : heat == HR2D_HEAT_FLUX;
+  const int none = is_emission ? heat != HR2D_HEAT_NONE : hr2di_scene_has_flux(op->scene, k);
   const char *what = is_emission ? "emission" : "reflectance";
   double *to = is_emission ? hr2di_relit_emission(op->kept->relit, k)
                            : hr2di_relit_reflectance(op->kept->relit, k);
@@ -55,8 +55,9 @@ static hr2d_status take_surface(hr2d_operator *op, const hr2d_values *v, int is_
     if (none && isnan(value)) continue;
     if (none)
       return refuse(op, light, what, k, value,
-                    heat == HR2D_HEAT_FLUX ? "it has a flux; NaN leaves it"
-                                           : "it has a temperature; NaN leaves it");
+                    heat == HR2D_HEAT_FLUX     ? "it has a flux; NaN leaves it"
+                    : heat == HR2D_HEAT_SHIELD ? "it is a shield; NaN leaves it"
+                                               : "it has a temperature; NaN leaves it");
     if (!(value >= 0 && value <= (is_emission ? HUGE_VAL : 1)) || !isfinite(value))
       return refuse(op, light, what, k, value,
                     is_emission ? "it must be at least 0, and finite"

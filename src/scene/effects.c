@@ -61,8 +61,9 @@ static void analyse_panes(hr2d_scene *scene) {
   for (size_t k = scene->patches; k-- > 0;) {
     if (hr2di_scene_other_side(scene, k) == k) continue;
     const hr2di_label label = hr2di_patch_label(scene, k);
-    set(scene, HR2D_EFFECT_PANES, 1, "light passes through %s", label.text);
-    set(scene, HR2D_EFFECT_INTERREFLECTION, 1, "light passes through %s", label.text);
+    const char *what = hr2di_shield_is(scene, k) ? "heat" : "light";
+    set(scene, HR2D_EFFECT_PANES, 1, "%s passes through %s", what, label.text);
+    set(scene, HR2D_EFFECT_INTERREFLECTION, 1, "%s passes through %s", what, label.text);
   }
 }
 

@@ -98,6 +98,13 @@ double hr2di_emissivity_radiance(const hr2d_scene *scene, size_t patch, double i
   return isnan(over) ? NAN : high;
 }
 
+double hr2di_shield_radiance(const hr2d_scene *scene, size_t patch, double irradiance,
+                             double other) {
+  const double e = hr2d_scene_emissivity(scene, patch, 0),
+               of_other = hr2d_scene_emissivity(scene, hr2di_scene_other_side(scene, patch), 0);
+  return (e * irradiance + of_other * other) / (e + of_other);
+}
+
 double hr2d_scene_temperature(const hr2d_scene *scene, size_t patch, double irradiance) {
   if (!hr2di_scene_has(scene, patch)) return NAN;
   const hr2di_light *light = scene->patch[patch].light;

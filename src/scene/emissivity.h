@@ -19,4 +19,8 @@ double hr2di_emissivity_slope(const hr2d_scene *scene, size_t patch, size_t band
    much.  NaN: a function said no emissivity. */
 double hr2di_emissivity_radiance(const hr2d_scene *scene, size_t patch, double irradiance);
 
+/* σT⁴ of a shield that receives H on one side, and on the other, in the only band. */
+double hr2di_shield_radiance(const hr2d_scene *scene, size_t patch, double irradiance,
+                             double other);
+
 #endif

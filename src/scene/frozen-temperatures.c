@@ -29,7 +29,7 @@ static hr2di_light light_of(const hr2d_scene *scene, size_t k) {
   return (hr2di_light){.emission_bands = scene->bands,
                        .reflectance_bands = scene->bands,
                        .emissivity_bands = scene->bands,
-                       .heat = HR2D_HEAT_FLUX,
+                       .heat = scene->patch[k].light->heat,
                        .given = scene->patch[k].light->given};
 }
 

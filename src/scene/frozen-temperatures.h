@@ -16,13 +16,8 @@ typedef struct hr2di_found {
   double estimate, bound; /* the errors of it; NaN: not known */
 } hr2di_found;
 
-/* Whether the flux of a patch is given. */
-static inline int hr2di_scene_has_flux(const hr2d_scene *scene, size_t patch) {
-  return scene->patch[patch].light->heat == HR2D_HEAT_FLUX;
-}
-
-/* Whether a committed scene has patches of given flux in several bands, without temperatures.
- */
+/* Whether a committed scene has patches of given flux, or shields, in several bands, without
+   temperatures. */
 int hr2di_scene_is_unsettled(const hr2d_scene *scene);
 
 /* The scene that a scene of frozen temperatures is of; others are their own. */

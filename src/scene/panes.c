@@ -7,7 +7,9 @@
 #include "base/alloc.h"
 #include "base/sort.h"
 
+/* Whether a patch has another side: a shield passes heat on, whatever it does with light. */
 static int transmits(const hr2d_scene *scene, size_t patch) {
+  if (hr2di_shield_is(scene, patch)) return 1;
   for (size_t b = 0; b < scene->bands; b++)
     if (hr2d_scene_transmittance(scene, patch, b) > 0) return 1;
   return 0;
@@ -45,6 +47,12 @@ static side side_of(const hr2d_scene *scene, size_t patch) {
 }
 
 static hr2d_status refuse_single(hr2d_scene *scene, size_t patch) {
+  if (hr2di_shield_is(scene, patch))
+    return hr2di_message_fail(
+        &scene->message, HR2D_ESCENE,
+        "%s is a side of a shield, and no patch with the same ends is the other side: write "
+        "\"sides\": \"both\", or add the other side",
+        hr2di_patch_label(scene, patch).text);
   return hr2di_message_fail(&scene->message, HR2D_ESCENE,
                             "%s has a transmittance, and no patch with the same ends has one "
                             "on its other side: write "
@@ -54,6 +62,13 @@ static hr2d_status refuse_single(hr2d_scene *scene, size_t patch) {
 
 /* Both sides have one transmittance, and neither gives more than it gets. */
 static hr2d_status check_pane(hr2d_scene *scene, size_t front, size_t back) {
+  if (hr2di_shield_is(scene, front) && hr2di_shield_is(scene, back)) return HR2D_OK;
+  if (hr2di_shield_is(scene, front) || hr2di_shield_is(scene, back))
+    return hr2di_message_fail(&scene->message, HR2D_ESCENE,
+                              "%s and %s are the sides of one sheet, and only one is a shield: "
+                              "both must be, or neither",
+                              hr2di_patch_label(scene, front).text,
+                              hr2di_patch_label(scene, back).text);
   for (size_t b = 0; b < scene->bands; b++) {
     const double tau[] = {hr2d_scene_transmittance(scene, front, b),
                           hr2d_scene_transmittance(scene, back, b)};

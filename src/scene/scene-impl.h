@@ -207,6 +207,15 @@ static inline size_t hr2di_scene_other_side(const hr2d_scene *scene, size_t patc
   return scene->other_side ? scene->other_side[patch] : patch;
 }
 
+static inline int hr2di_shield_is(const hr2d_scene *scene, size_t patch) {
+  return scene->patch[patch].light->heat == HR2D_HEAT_SHIELD;
+}
+
+/* Whether its heat is given, and its temperature follows: of a shield that of both sides. */
+static inline int hr2di_scene_has_flux(const hr2d_scene *scene, size_t patch) {
+  return scene->patch[patch].light->heat == HR2D_HEAT_FLUX || hr2di_shield_is(scene, patch);
+}
+
 /* What leaves a patch of what falls on it: ρ, on a pane ρ + τ. */
 static inline double hr2di_scene_scattered(const hr2d_scene *scene, size_t patch, size_t band) {
   const double rho = hr2d_scene_reflectance(scene, patch, band);

@@ -406,9 +406,20 @@ double hr2d_scene_emission(const hr2d_scene *scene, size_t patch, size_t band) {
   return band_value(light->value, light->emission_bands, band);
 }
 
+/* A shield in one band is a pane that absorbs nothing.  In several it waits for its
+   temperature, as patches of given flux do. */
+static double transmittance_of_shield(const hr2d_scene *scene, size_t patch) {
+  if (scene->bands > 1) return 0;
+  const double e = hr2d_scene_emissivity(scene, patch, 0),
+               other = hr2d_scene_emissivity(scene, hr2di_scene_other_side(scene, patch), 0);
+  return e / (e + other) * other;
+}
+
 double hr2d_scene_reflectance(const hr2d_scene *scene, size_t patch, size_t band) {
   if (!hr2di_scene_has(scene, patch) || !hr2di_scene_has_band(scene, band)) return NAN;
   const hr2di_light *light = scene->patch[patch].light;
+  if (light->heat == HR2D_HEAT_SHIELD && !light->reflectance_bands)
+    return 1 - transmittance_of_shield(scene, patch);
   return band_value(light->value + light->emission_bands, light->reflectance_bands, band);
 }
 
@@ -418,6 +429,7 @@ double hr2d_scene_transmittance(const hr2d_scene *scene, size_t patch, size_t ba
   if (scene->lender)
     return hr2d_scene_transmittance(scene->lender, patch, band % scene->lender->bands);
   const hr2di_light *light = scene->patch[patch].light;
+  if (light->heat == HR2D_HEAT_SHIELD) return transmittance_of_shield(scene, patch);
   const size_t tables = light->kelvins ? light->kelvins : 1;
   return band_value(light->value + light->emission_bands + light->reflectance_bands +
                         light->emissivity_bands * tables + light->kelvins,

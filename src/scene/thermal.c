@@ -5,6 +5,7 @@
    ε: the equation absorbs 1 − ρ of H, and a room of one temperature is in equilibrium only if
    the patch emits with the same factor.  1 − ρ is exact for ρ ≥ ½, and has one rounding else.
    Given q: B = H + q, which is E = q with ρ = 1.
+   Of a shield E = 0, and ρ and τ follow from ε of both sides, see scene.c.
    Of a pane with T: ρ = 1 − ε − τ, and E = (1 − (ρ + τ))σT⁴ for the same reason. */
 #include <float.h>
 #include <hr2d/thermal.h>
@@ -25,8 +26,14 @@ static hr2d_status refuse(hr2d_scene *scene, hr2d_status status, const hr2d_patc
 
 static hr2d_status check_value(hr2d_scene *scene, const hr2d_patch *patch,
                                const hr2d_thermal *t) {
-  if (t->given != HR2D_HEAT_TEMPERATURE && t->given != HR2D_HEAT_FLUX)
+  if (t->given != HR2D_HEAT_TEMPERATURE && t->given != HR2D_HEAT_FLUX &&
+      t->given != HR2D_HEAT_SHIELD)
     return refuse(scene, HR2D_EINVAL, patch, "neither a temperature nor a flux is given");
+  if (t->given == HR2D_HEAT_SHIELD && t->value != 0)
+    return refuse(scene, HR2D_EINVAL, patch, "a shield has no value: its net heat is 0");
+  if (t->given == HR2D_HEAT_SHIELD && (t->kelvins || t->emissivity_of))
+    return refuse(scene, HR2D_EUNSUPPORTED, patch,
+                  "the emissivity of a shield must not depend on temperature");
   if (patch->emission_bands || patch->reflectance_bands)
     return refuse(scene, HR2D_EINVAL, patch,
                   "emission and reflectance follow from what is given, and cannot be set");
@@ -34,7 +41,7 @@ static hr2d_status check_value(hr2d_scene *scene, const hr2d_patch *patch,
     return refuse(scene, HR2D_ESCENE, patch,
                   t->given == HR2D_HEAT_FLUX ? "flux is not finite"
                                              : "temperature is not finite");
-  if (t->given == HR2D_HEAT_FLUX) return HR2D_OK;
+  if (t->given != HR2D_HEAT_TEMPERATURE) return HR2D_OK;
   if (t->value < 0)
     return refuse(scene, HR2D_ESCENE, patch,
                   "temperature is negative: it is in kelvin, which is °C + 273.15");
@@ -83,9 +90,11 @@ static hr2d_status check_emissivity(hr2d_scene *scene, const hr2d_patch *patch,
     const double e = t->emissivity[k];
     if (!(e >= 0 && e <= 1))
       return refuse(scene, HR2D_ESCENE, patch, "emissivity is not between 0 and 1");
-    if (e == 0 && t->given == HR2D_HEAT_FLUX)
+    if (e == 0 && t->given != HR2D_HEAT_TEMPERATURE)
       return refuse(scene, HR2D_ESCENE, patch,
-                    "emissivity is 0: with a flux its temperature would be unknown");
+                    t->given == HR2D_HEAT_FLUX
+                        ? "emissivity is 0: with a flux its temperature would be unknown"
+                        : "emissivity is 0: no heat passes such a shield; make it a wall");
   }
   return HR2D_OK;
 }
@@ -109,7 +118,7 @@ double hr2di_scene_band_rise(const hr2d_scene *scene, double kelvin, size_t band
    in `value`. */
 static hr2d_status fix_emissivity(hr2d_scene *scene, const hr2d_patch *patch, hr2d_thermal *t,
                                   double *value) {
-  if (t->given == HR2D_HEAT_FLUX || !(t->kelvins || t->emissivity_of)) return HR2D_OK;
+  if (t->given != HR2D_HEAT_TEMPERATURE || !(t->kelvins || t->emissivity_of)) return HR2D_OK;
   for (size_t b = 0; b < scene->wavelengths + 1; b++) {
     value[b] = hr2di_emissivity_of(t, b, t->value);
     if (!(value[b] >= 0 && value[b] <= 1))
@@ -133,6 +142,7 @@ static double transmittance_of(const hr2d_patch *patch, size_t band) {
 static void set_light(const hr2d_scene *scene, const hr2d_thermal *t, double *value,
                       hr2d_patch *patch) {
   const int flux = t->given == HR2D_HEAT_FLUX;
+  if (t->given == HR2D_HEAT_SHIELD) return;
   const size_t bands = flux ? 1 : scene->wavelengths + 1;
   double *rho = value + bands;
   for (size_t b = 0; b < bands; b++) {
@@ -161,10 +171,13 @@ static hr2d_status check_transmittance(hr2d_scene *scene, const hr2d_patch *patc
     const double tau = transmittance_of(patch, b);
     if (!(tau >= 0 && tau <= 1))
       return refuse(scene, HR2D_ESCENE, patch, "transmittance is not between 0 and 1");
-    if (tau > 0 && t->given == HR2D_HEAT_FLUX)
-      return refuse(scene, HR2D_ESCENE, patch,
-                    "a flux has no transmittance beside it: what passes a pane is no part of "
-                    "the heat of a side; give temperatures");
+    if (tau > 0 && t->given != HR2D_HEAT_TEMPERATURE)
+      return refuse(
+          scene, HR2D_ESCENE, patch,
+          t->given == HR2D_HEAT_SHIELD
+              ? "a shield has no transmittance beside it: what passes it is its heat"
+              : "a flux has no transmittance beside it: what passes a pane is no part "
+                "of the heat of a side; give temperatures");
     if (hr2di_emissivity_of(t, b, t->value) + tau > 1 + 4 * DBL_EPSILON)
       return refuse(scene, HR2D_ESCENE, patch,
                     "emissivity and transmittance are together above 1");
@@ -258,7 +271,10 @@ hr2d_status hr2di_scene_check_thermal(hr2d_scene *scene, hr2di_watch *watch) {
       return hr2di_message_fail(&scene->message, HR2D_ESCENE,
                                 "%s has a %s, and the scene has %zu bands without wavelengths",
                                 hr2di_patch_label(scene, k).text,
-                                heat == HR2D_HEAT_FLUX ? "flux" : "temperature", scene->bands);
+                                heat == HR2D_HEAT_FLUX     ? "flux"
+                                : heat == HR2D_HEAT_SHIELD ? "temperature, as a shield,"
+                                                           : "temperature",
+                                scene->bands);
   }
   return HR2D_OK;
 }

@@ -57,7 +57,7 @@ static void sum_up(const hr2d_scene *scene, exchange *e, size_t band) {
 static hr2d_status refuse(hr2d_linkset *links, const hr2d_scene *scene, size_t patch,
                           size_t band) {
   const hr2di_label label = hr2di_patch_label(scene, patch);
-  if (hr2d_scene_heat(scene, patch, NULL) == HR2D_HEAT_FLUX)
+  if (hr2di_scene_has_flux(scene, patch))
     return hr2di_message_fail(
         &links->message, HR2D_ENO_SOLUTION,
         "no solution: %s is in a closed part of the scene where no patch has a given "
@@ -87,8 +87,7 @@ static hr2d_status check_band(hr2d_linkset *links, const hr2d_scene *scene, exch
   for (size_t k = 0; k < scene->patches; k++) {
     const size_t root = hr2di_component(&e->components, k);
     if (absorbs[root] || hr2di_sum_total(&e->escape[root]) > closed * e->length[root] ||
-        (!(hr2d_scene_emission(scene, k, band) > 0) &&
-         hr2d_scene_heat(scene, k, NULL) != HR2D_HEAT_FLUX))
+        (!(hr2d_scene_emission(scene, k, band) > 0) && !hr2di_scene_has_flux(scene, k)))
       continue;
     return refuse(links, scene, k, band);
   }
@@ -102,13 +101,11 @@ static hr2d_status check_heat(hr2d_linkset *links, const hr2d_scene *scene, exch
   for (size_t k = 0; k < scene->patches; k++) absorbs[k] = 0;
   for (size_t k = 0; k < scene->patches; k++)
     for (size_t band = 0; band < scene->bands; band++)
-      if (hr2di_scene_absorptance(scene, k, band) > 0 &&
-          hr2d_scene_heat(scene, k, NULL) != HR2D_HEAT_FLUX)
+      if (hr2di_scene_absorptance(scene, k, band) > 0 && !hr2di_scene_has_flux(scene, k))
         absorbs[hr2di_component(&e->components, k)] = 1;
   for (size_t k = 0; k < scene->patches; k++) {
     const size_t root = hr2di_component(&e->components, k);
-    if (!absorbs[root] && hr2d_scene_heat(scene, k, NULL) == HR2D_HEAT_FLUX &&
-        hr2di_scene_lit(scene, k) &&
+    if (!absorbs[root] && hr2di_scene_has_flux(scene, k) && hr2di_scene_lit(scene, k) &&
         !(hr2di_sum_total(&e->escape[root]) > closed_below(links) * e->length[root]))
       return refuse(links, scene, k, 0);
   }

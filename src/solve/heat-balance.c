@@ -28,31 +28,56 @@ enum { PLANCK = 10 };
 enum { ARRAYS = 9, ROOTS = 100, STEPS = 50, HALVINGS = 8, MOST_SOLVES = 2000 };
 
 static int is_unknown(const hr2d_scene *scene, size_t k) {
-  return hr2d_scene_heat(scene, k, NULL) == HR2D_HEAT_FLUX && hr2di_scene_lit(scene, k);
+  return hr2di_scene_has_flux(scene, k) && hr2di_scene_lit(scene, k);
+}
+
+/* Of the sides of a shield the first one has its unknown. */
+static int is_back(const hr2d_scene *scene, size_t k) {
+  return hr2di_shield_is(scene, k) && hr2di_scene_other_side(scene, k) < k;
+}
+
+/* Sets the sides: those of unknowns in the order of patches, then the backs in the order of
+   their fronts. */
+static void list_sides(hr2di_heat_balance *h) {
+  const hr2d_scene *scene = h->scene;
+  size_t at = 0;
+  for (size_t k = 0; k < hr2di_scene_cell(scene); k++) {
+    if (!is_unknown(scene, k) || is_back(scene, k)) continue;
+    h->depends |= hr2di_emissivity_depends(hr2di_scene_origin(scene), k);
+    h->length[at] = scene->patch[k].length;
+    h->radiance[at] = scene->found[k].radiance;
+    h->back[at] = HR2DI_NO_BACK;
+    h->of[at] = at;
+    h->patch[at++] = k;
+  }
+  for (size_t k = 0; k < h->count; k++) {
+    if (!hr2di_shield_is(scene, h->patch[k])) continue;
+    h->back[k] = at;
+    h->of[at] = k;
+    h->patch[at++] = hr2di_scene_other_side(scene, h->patch[k]);
+  }
 }
 
 static hr2d_status reserve(hr2di_heat_balance *h) {
   const hr2d_scene *scene = h->scene;
   const size_t cell = hr2di_scene_cell(scene);
-  for (size_t k = 0; k < cell; k++) h->count += (size_t)is_unknown(scene, k);
-  h->patch = hr2di_alloc(&scene->alloc, h->count + 1, sizeof *h->patch);
-  h->space = hr2di_alloc_zero(&scene->alloc, (ARRAYS + 2 * scene->bands) * h->count + 1,
-                              sizeof *h->space);
+  for (size_t k = 0; k < cell; k++) {
+    h->sides += (size_t)is_unknown(scene, k);
+    h->count += (size_t)(is_unknown(scene, k) && !is_back(scene, k));
+  }
+  h->patch = hr2di_alloc(&scene->alloc, 3 * h->sides + 1, sizeof *h->patch);
+  h->space = hr2di_alloc_zero(
+      &scene->alloc, ARRAYS * h->count + 2 * scene->bands * h->sides + 1, sizeof *h->space);
   h->average = hr2di_alloc(&scene->alloc, scene->patches * scene->bands, sizeof *h->average);
   if (!h->patch || !h->space || !h->average) return HR2D_ENOMEM;
   double **const array[ARRAYS] = {&h->radiance, &h->defect, &h->size,  &h->slope, &h->length,
                                   &h->step,     &h->old,    &h->right, &h->gain};
   for (size_t k = 0; k < ARRAYS; k++) *array[k] = h->space + k * h->count;
   h->emission = h->space + ARRAYS * h->count;
-  h->rise = h->emission + scene->bands * h->count;
-  size_t at = 0;
-  for (size_t k = 0; k < cell; k++) {
-    if (!is_unknown(scene, k)) continue;
-    h->depends |= hr2di_emissivity_depends(hr2di_scene_origin(scene), k);
-    h->length[at] = scene->patch[k].length;
-    h->radiance[at] = scene->found[k].radiance;
-    h->patch[at++] = k;
-  }
+  h->rise = h->emission + scene->bands * h->sides;
+  h->of = h->patch + h->sides;
+  h->back = h->of + h->sides;
+  list_sides(h);
   return HR2D_OK;
 }
 
@@ -82,7 +107,7 @@ static hr2d_status set_source(hr2di_heat_balance *h, int alone) {
   for (size_t k = 0; k < h->scene->patches; k++)
     for (size_t b = 0; b < bands; b++)
       of[k * bands + b] = alone ? 0 : hr2d_scene_emission(h->scene, k, b);
-  for (size_t m = 0; m < h->count * bands && alone; m++)
+  for (size_t m = 0; m < h->sides * bands && alone; m++)
     of[h->patch[m / bands] * bands + m % bands] = h->emission[m];
   memset(eq->source, 0, eq->field * sizeof *eq->source);
   memset(eq->y, 0, eq->field * sizeof *eq->y);
@@ -130,10 +155,10 @@ static hr2d_status solve(hr2di_heat_balance *h, int alone) {
 /* E and ρ for h->radiance. */
 static hr2d_status set_radiance(hr2di_heat_balance *h) {
   hr2d_status status = HR2D_OK;
-  for (size_t k = 0; k < h->count && !status; k++) {
+  for (size_t k = 0; k < h->sides && !status; k++) {
     status = hr2di_watch_work(&h->eq.watch, PLANCK * h->scene->bands);
     if (status) break;
-    status = hr2di_frozen_set(h->scene, h->patch[k], h->radiance[k]);
+    status = hr2di_frozen_set(h->scene, h->patch[k], h->radiance[h->of[k]]);
     if (status)
       hr2di_message_fail(
           &h->eq.links->message, status,
@@ -163,15 +188,28 @@ static void set_slope(hr2di_heat_balance *h, size_t k) {
   const size_t bands = h->scene->bands;
   double plain = 0;
   h->slope[k] = 0;
-  for (size_t b = 0; b < bands; b++) {
-    h->rise[k * bands + b] = rise_of(h, h->patch[k], b);
-    h->slope[k] += h->rise[k * bands + b];
-    plain += hr2di_frozen_rise(h->scene, h->patch[k], b);
-  }
+  for (int m = 0; hr2di_heat_side(h, k, m) != HR2DI_NO_BACK; m++)
+    for (size_t b = 0, s = hr2di_heat_side(h, k, m); b < bands; b++) {
+      h->rise[s * bands + b] = rise_of(h, h->patch[s], b);
+      h->slope[k] += h->rise[s * bands + b];
+      plain += hr2di_frozen_rise(h->scene, h->patch[s], b);
+    }
   if (h->slope[k] >= LEAST_SLOPE * plain) return;
-  for (size_t b = 0; b < bands; b++)
+  for (size_t b = 0; b < bands; b++) /* only where ε depends on T, as on no shield */
     h->rise[k * bands + b] = hr2di_frozen_rise(h->scene, h->patch[k], b);
   h->slope[k] = plain;
+}
+
+/* Adds Σ_b (E_b − a_b H̄_b) of a side to g of its unknown. */
+static void add_defect(hr2di_heat_balance *h, size_t side) {
+  const size_t bands = h->scene->bands, patch = h->patch[side], k = h->of[side];
+  for (size_t b = 0; b < bands; b++) {
+    const double emitted = hr2d_scene_emission(h->scene, patch, b);
+    const double absorbed =
+        (1 - hr2d_scene_reflectance(h->scene, patch, b)) * h->average[patch * bands + b];
+    h->defect[k] += emitted - absorbed;
+    h->size[k] += fabs(emitted) + fabs(absorbed);
+  }
 }
 
 /* g, its size and D for h->radiance. */
@@ -188,13 +226,8 @@ static hr2d_status evaluate(hr2di_heat_balance *h) {
     hr2d_scene_heat(h->scene, patch, &flux);
     h->defect[k] = -flux;
     h->size[k] = fabs(flux);
-    for (size_t b = 0; b < bands; b++) {
-      const double emitted = hr2d_scene_emission(h->scene, patch, b);
-      const double absorbed =
-          (1 - hr2d_scene_reflectance(h->scene, patch, b)) * h->average[patch * bands + b];
-      h->defect[k] += emitted - absorbed;
-      h->size[k] += fabs(emitted) + fabs(absorbed);
-    }
+    for (int m = 0; hr2di_heat_side(h, k, m) != HR2DI_NO_BACK; m++)
+      add_defect(h, hr2di_heat_side(h, k, m));
     set_slope(h, k);
     h->power += h->length[k] * fabs(h->defect[k]);
     if (h->size[k] > 0) h->worst = fmax(h->worst, fabs(h->defect[k]) / h->size[k]);
@@ -204,8 +237,8 @@ static hr2d_status evaluate(hr2di_heat_balance *h) {
 
 static void set_emission(hr2di_heat_balance *h, const double *radiance) {
   const size_t bands = h->scene->bands;
-  for (size_t m = 0; m < h->count * bands; m++)
-    h->emission[m] = h->rise[m] * radiance[m / bands];
+  for (size_t m = 0; m < h->sides * bands; m++)
+    h->emission[m] = h->rise[m] * radiance[h->of[m / bands]];
 }
 
 /* out = D⁻¹C in */
@@ -214,13 +247,11 @@ static void apply(void *ctx, const double *in, double *out) {
   const size_t bands = h->scene->bands;
   set_emission(h, in);
   if (!h->failed) h->failed = solve(h, 1);
-  for (size_t k = 0; k < h->count; k++) {
-    const size_t patch = h->patch[k];
-    out[k] = 0;
+  for (size_t k = 0; k < h->count; k++) out[k] = 0;
+  for (size_t s = 0; s < h->sides; s++)
     for (size_t b = 0; b < bands && !h->failed; b++)
-      out[k] += (1 - hr2d_scene_reflectance(h->scene, patch, b)) *
-                h->average[patch * bands + b] / h->slope[k];
-  }
+      out[h->of[s]] += (1 - hr2d_scene_reflectance(h->scene, h->patch[s], b)) *
+                       h->average[h->patch[s] * bands + b] / h->slope[h->of[s]];
 }
 
 static void scale(void *ctx, const double *y, double *norm) {
@@ -260,32 +291,47 @@ hr2d_status hr2di_heat_balance_spread(hr2di_heat_balance *h, const double *off,
   return h->failed ? h->failed : status;
 }
 
-static double emitted(const hr2d_scene *scene, size_t patch) {
+/* What an unknown emits with a radiance, in all bands. */
+static double emitted(hr2di_heat_balance *h, size_t k, double radiance) {
   double sum = 0;
-  for (size_t b = 0; b < scene->bands; b++) sum += hr2d_scene_emission(scene, patch, b);
+  for (int m = 0; hr2di_heat_side(h, k, m) != HR2DI_NO_BACK; m++) {
+    const size_t patch = h->patch[hr2di_heat_side(h, k, m)];
+    hr2di_frozen_set(h->scene, patch, radiance);
+    for (size_t b = 0; b < h->scene->bands; b++) sum += hr2d_scene_emission(h->scene, patch, b);
+  }
+  return sum;
+}
+
+/* Σa of an unknown in a band. */
+static double absorptance(const hr2di_heat_balance *h, size_t k, size_t band) {
+  double sum = 0;
+  for (int m = 0; hr2di_heat_side(h, k, m) != HR2DI_NO_BACK; m++)
+    sum += 1 - hr2d_scene_reflectance(h->scene, h->patch[hr2di_heat_side(h, k, m)], band);
   return sum;
 }
 
 /* S with Σ E_b = P > 0: between P/max a and P/min a, by Newton's method, or by halving where
    that leaves the interval. */
-static double radiance_of(hr2d_scene *scene, size_t patch, double power, double guess) {
+static double radiance_of(hr2di_heat_balance *h, size_t k, double power, double guess) {
+  const size_t bands = h->scene->bands;
   double low = HUGE_VAL, high = 0;
-  for (size_t b = 0; b < scene->bands; b++) {
-    const double s = power / (1 - hr2d_scene_reflectance(scene, patch, b));
+  for (size_t b = 0; b < bands; b++) {
+    const double s = power / absorptance(h, k, b);
     low = fmin(low, s);
     high = fmax(high, s);
   }
   double s = fmin(fmax(guess, low), high);
-  for (int k = 0; k < ROOTS && high > low; k++) {
+  for (int n = 0; n < ROOTS && high > low; n++) {
     double rise = 0;
-    hr2di_frozen_set(scene, patch, s);
-    const double over = emitted(scene, patch) - power;
+    const double over = emitted(h, k, s) - power;
     if (fabs(over) <= DBL_EPSILON * power) break;
     if (over > 0)
       high = s;
     else
       low = s;
-    for (size_t b = 0; b < scene->bands; b++) rise += hr2di_frozen_rise(scene, patch, b);
+    for (int m = 0; hr2di_heat_side(h, k, m) != HR2DI_NO_BACK; m++)
+      for (size_t b = 0; b < bands; b++)
+        rise += hr2di_frozen_rise(h->scene, h->patch[hr2di_heat_side(h, k, m)], b);
     const double next = s - over / rise;
     s = next > low && next < high ? next : 0.5 * (low + high);
   }
@@ -303,11 +349,9 @@ static hr2d_status take_step(hr2di_heat_balance *h, int halvings) {
       h->radiance[k] = fmax(h->old[k] + ldexp(h->step[k], -halvings), h->old[k] / 16);
       continue;
     }
-    hr2di_frozen_set(h->scene, h->patch[k], h->old[k]);
-    const double power = emitted(h->scene, h->patch[k]) + ldexp(h->gain[k], -halvings);
-    const double rest = 1 - hr2d_scene_reflectance(h->scene, h->patch[k], h->scene->bands - 1);
-    h->radiance[k] =
-        power > 0 ? radiance_of(h->scene, h->patch[k], power, h->old[k]) : power / rest;
+    const double power = emitted(h, k, h->old[k]) + ldexp(h->gain[k], -halvings);
+    const double rest = absorptance(h, k, h->scene->bands - 1);
+    h->radiance[k] = power > 0 ? radiance_of(h, k, power, h->old[k]) : power / rest;
   }
   return status;
 }

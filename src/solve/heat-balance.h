@@ -17,6 +17,9 @@
    A step is one of what patches emit in all bands, Σ_b E_kb: then only their spectra are not
    linear.  It is halved while |g| does not fall.
 
+   A shield is one unknown of two patches: its S is that of both sides, and g is the sum of
+   theirs.  The theorem holds as for one patch that stands in both rooms.
+
    Where ε depends on T, ρ does as well, and E' has a part of it.  If ε falls with T the theorem
    need not hold: errors are then those of a linear problem near the T that is found. */
 #ifndef HR2D_SRC_SOLVE_HEAT_BALANCE_H
@@ -25,11 +28,16 @@
 #include "scene/frozen-temperatures.h"
 #include "solve/equation.h"
 
+#define HR2DI_NO_BACK SIZE_MAX
+
 typedef struct hr2di_heat_balance {
   hr2d_scene *scene; /* of frozen temperatures */
   hr2di_equation eq;
-  size_t count;     /* patches of given flux that heat reaches */
-  size_t *patch;    /* their indices */
+  size_t count;     /* unknowns: patches of given flux that heat reaches, and shields */
+  size_t sides;     /* the patches of these: one of each, and then the backs of shields */
+  size_t *patch;    /* per side: its index, */
+  size_t *of;       /* and its unknown */
+  size_t *back;     /* per unknown: the side that is the back of a shield, or HR2DI_NO_BACK */
   double *space;    /* holds all arrays below, of `count` values unless said otherwise */
   double *radiance; /* S */
   double *defect;   /* g */
@@ -37,7 +45,7 @@ typedef struct hr2di_heat_balance {
   double *slope;    /* D */
   double *length;   /* A */
   double *step, *gain, *old, *right;
-  double *emission; /* count × bands */
+  double *emission; /* sides × bands */
   double *rise;     /* likewise: ∂E/∂S */
   double *average;  /* patches × bands: of B or of H, after a solve */
   double worst;     /* the largest |g|/size */
@@ -46,6 +54,11 @@ typedef struct hr2di_heat_balance {
   int depends;        /* the ε of some patch depends on T */
   hr2d_status failed; /* of a solve within a Krylov step */
 } hr2di_heat_balance;
+
+/* The sides of an unknown, from `side` = 0 on; HR2DI_NO_BACK behind the last one. */
+static inline size_t hr2di_heat_side(const hr2di_heat_balance *h, size_t unknown, int side) {
+  return side == 0 ? unknown : side == 1 ? h->back[unknown] : HR2DI_NO_BACK;
+}
 
 /* Sets up the balance on links of the scene or of its origin; `start` of the options does not
    matter.  Call hr2di_heat_balance_clear() in any

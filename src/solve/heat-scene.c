@@ -36,7 +36,8 @@ hr2d_status hr2di_heat_scene_create(const hr2d_scene *scene, const hr2d_solution
   hr2di_watch watch;
   hr2di_scene_watch(scene, &watch, progress, progress_ctx, "solve");
   for (size_t k = 0; k < hr2di_scene_cell(scene) && !status; k++) {
-    if (hr2d_scene_heat(scene, k, &flux) != HR2D_HEAT_FLUX) continue;
+    if (!hr2di_scene_has_flux(scene, k)) continue;
+    hr2d_scene_heat(scene, k, &flux);
     const double bright = hr2di_scene_lit(scene, k) ? max + fmax(flux, 0) : 0;
     status = hr2di_watch_work(&watch, 10 * scene->bands);
     if (!status) status = hr2di_frozen_set(made, k, former ? former[k].radiance : bright);
@@ -58,8 +59,9 @@ hr2d_status hr2di_heat_scene_check(hr2di_heat_balance *h) {
   size_t min = 0;
   for (size_t k = 0; k < h->count; k++) {
     if (h->radiance[k] < h->radiance[min]) min = k;
-    if (h->radiance[k] < 0 && h->radiance[k] >= -ROUND * h->size[k])
-      hr2di_frozen_set(h->scene, h->patch[k], 0);
+    for (int m = 0; hr2di_heat_side(h, k, m) != HR2DI_NO_BACK; m++)
+      if (h->radiance[k] < 0 && h->radiance[k] >= -ROUND * h->size[k])
+        hr2di_frozen_set(h->scene, h->patch[hr2di_heat_side(h, k, m)], 0);
   }
   if (!h->count || h->radiance[min] >= -ROUND * h->size[min]) return HR2D_OK;
   return hr2di_message_fail(

@@ -67,14 +67,17 @@ static hr2d_status read_name(loading *l) {
 
 /* What hr2d_scene_add_thermal() makes: E may be negative on a patch of given flux. */
 static int is_thermal(const hr2d_patch *patch, const hr2d_thermal *t) {
-  const int flux = t->given == HR2D_HEAT_FLUX;
+  const int flux = t->given == HR2D_HEAT_FLUX, shield = t->given == HR2D_HEAT_SHIELD;
   int valid = isfinite(t->value) != 0;
+  if (shield) /* which has nothing but ε */
+    valid &= t->value == 0 && !patch->emission_bands && !patch->reflectance_bands &&
+             !patch->transmittance_bands;
   for (size_t k = 0; k < patch->emission_bands; k++)
     valid &= isfinite(patch->emission[k]) && (flux || patch->emission[k] >= 0);
   for (size_t k = 0; k < patch->reflectance_bands; k++)
     valid &= patch->reflectance[k] >= 0 && patch->reflectance[k] <= 1;
   for (size_t k = 0; k < t->emissivity_bands; k++)
-    valid &= t->emissivity[k] >= (flux ? DBL_MIN : 0) && t->emissivity[k] <= 1;
+    valid &= t->emissivity[k] >= (flux || shield ? DBL_MIN : 0) && t->emissivity[k] <= 1;
   return valid;
 }
 
@@ -87,7 +90,7 @@ static hr2d_status read_light(loading *l, hr2d_patch *patch, hr2d_thermal *t) {
   for (int k = 0; k < numbers; k++) bands[k] = hr2di_reader_word(r);
   t->value = hr2di_reader_double(r);
   if (r->status) return r->status;
-  if (heat > HR2D_HEAT_FLUX) return damaged(l, "what is given of a patch");
+  if (heat > HR2D_HEAT_SHIELD) return damaged(l, "what is given of a patch");
   for (int k = 0; k < numbers; k++)
     if (bands[k] > UINT64_MAX / 32) return damaged(l, "its number of bands");
   const hr2d_status status = read_values(l, bands[0] + bands[1] + bands[2] + bands[3]);

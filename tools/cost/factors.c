@@ -202,6 +202,7 @@ static const char *unknown(const hr2d_scene *scene) {
   const size_t bands = hr2d_scene_bands(scene);
   for (size_t b = 0; b < bands; b++)
     if (hr2d_scene_sun(scene, b).irradiance > 0 || has_sky(scene, b)) return "sun and sky";
+  if (hr2d_scene_effect(scene, HR2D_EFFECT_PANES, NULL)) return "panes and shields";
   for (size_t k = 0; bands > 1 && k < hr2d_scene_patches(scene); k++)
     if (hr2d_scene_heat(scene, k, NULL) == HR2D_HEAT_FLUX) return "fluxes in several bands";
   return NULL;

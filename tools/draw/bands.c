@@ -130,21 +130,41 @@ static int draw_ticks(picture *p, size_t patch) {
   return status;
 }
 
+/* A pane is a line of dashes on white, and a shield one of dashes and dots. */
+static void set_dashes(picture *p, size_t patch, double width) {
+  const double pane[] = {4 * width, 3 * width},
+               shield[] = {6 * width, 2 * width, width, 2 * width};
+  const int is_shield = hr2d_scene_heat(p->run->scene, patch, NULL) == HR2D_HEAT_SHIELD;
+  if (is_shield)
+    cairo_set_dash(p->cr, shield, 4, 0);
+  else
+    cairo_set_dash(p->cr, pane, 2, 0);
+}
+
 /* Without a band a wall has a white rim, so that it is seen in the dark. */
-static int draw_wall(picture *p, const stroke *s) {
+static int draw_wall(picture *p, size_t patch) {
+  const stroke *s = &p->strokes[patch];
+  const size_t other = hr2d_scene_other_side(p->run->scene, patch);
+  if (other < patch) return 0; /* drawn already */
   cairo_move_to(p->cr, s->a.x, s->a.y);
   cairo_line_to(p->cr, s->b.x, s->b.y);
-  if (!p->coloured) {
+  if (!p->coloured || other != patch) {
     pen_grey(p->cr, 0.9);
     cairo_set_line_width(p->cr, 3);
     cairo_stroke_preserve(p->cr);
   }
   pen_grey(p->cr, 0.1);
-  cairo_set_line_width(p->cr, p->coloured ? fine(p, 1.2) : 1.4);
+  const double width = p->coloured ? fine(p, 1.2) : 1.4;
+  cairo_set_line_width(p->cr, width);
+  if (other != patch) set_dashes(p, patch, width);
   cairo_stroke(p->cr);
-  const hr2d_point a = beside(s, 0, p->band + 4), b = beside(s, 1, p->band + 4);
-  const int status = obstacles_add(p, s->a, s->b);
-  return status ? status : obstacles_add(p, a, b);
+  cairo_set_dash(p->cr, NULL, 0, 0);
+  return obstacles_add(p, s->a, s->b);
+}
+
+/* Names keep clear of walls and of their bands. */
+static int keep_clear(picture *p, const stroke *s) {
+  return obstacles_add(p, beside(s, 0, p->band + 4), beside(s, 1, p->band + 4));
 }
 
 int bands_draw(picture *p) {
@@ -152,7 +172,10 @@ int bands_draw(picture *p) {
   int status = 0;
   for (size_t k = 0; p->coloured && !status && k < count; k++) status = draw_band(p, k);
   for (size_t k = 0; p->coloured && !status && k < count; k++) status = draw_ticks(p, k);
-  for (size_t k = 0; !status && k < count; k++) status = draw_wall(p, &p->strokes[k]);
+  for (size_t k = 0; !status && k < count; k++) {
+    status = draw_wall(p, k);
+    if (!status) status = keep_clear(p, &p->strokes[k]);
+  }
   return status;
 }
 #endif

@@ -20,14 +20,13 @@ int run_sun_exists(const hr2d_scene *scene) {
   return b < hr2d_scene_bands(scene);
 }
 
-double run_heat_at(const run *r, size_t patch, double irradiance) {
-  const double middle = 0.5;
+/* That of a shield needs H of both sides. */
+double run_heat_at(const run *r, size_t patch, double t, double irradiance) {
   double kelvin;
-  if (hr2d_scene_heat(r->scene, patch, NULL) != HR2D_HEAT_FLUX ||
-      hr2d_scene_bands(r->scene) == 1)
+  const hr2d_heat heat = hr2d_scene_heat(r->scene, patch, NULL);
+  if (heat != HR2D_HEAT_SHIELD && (heat != HR2D_HEAT_FLUX || hr2d_scene_bands(r->scene) == 1))
     return hr2d_scene_temperature(r->scene, patch, irradiance);
-  return hr2d_solution_gather_temperature(r->solution, patch, &middle, 1, &kelvin) ? NAN
-                                                                                   : kelvin;
+  return hr2d_solution_gather_temperature(r->solution, patch, &t, 1, &kelvin) ? NAN : kelvin;
 }
 
 const char *run_heat_word(unsigned char state) {

@@ -137,9 +137,9 @@ void run_heat_release(run_heat *heat);
 /* Whether some patch of a scene has a temperature or a flux. */
 int run_heat_exists(const hr2d_scene *scene);
 
-/* T where H arrives on a patch, in the only band if there is one; in several bands a patch has
-   one T.  NaN if it is not known. */
-double run_heat_at(const run *r, size_t patch, double irradiance);
+/* T at fraction t of a patch where H arrives, in the only band if there is one; in several
+   bands a patch has one T.  NaN if it is not known. */
+double run_heat_at(const run *r, size_t patch, double t, double irradiance);
 
 /* "found" */
 const char *run_heat_word(unsigned char state);

@@ -63,8 +63,8 @@ static int gather(const writer *w, const piece *p) {
   return 0;
 }
 
-static void write_temperature(const writer *w, double irradiance) {
-  const double kelvin = run_heat_at(w->run, w->patch, irradiance);
+static void write_temperature(const writer *w, double t, double irradiance) {
+  const double kelvin = run_heat_at(w->run, w->patch, t, irradiance);
   fputc(',', w->stream);
   if (!isnan(kelvin)) fprintf(w->stream, "%.17g", kelvin);
 }
@@ -87,7 +87,7 @@ static int write_leaf(void *ctx, const piece *p) {
             hr2d_scene_sunlight_over(w->run->scene, w->patch, p->t0, p->t1, b));
   for (size_t b = 0; b < w->bands; b++)
     for (size_t l = 1; l < w->order; l++) fprintf(w->stream, ",%.17g", w->b[b * w->order + l]);
-  if (w->heat) write_temperature(w, w->h[0]);
+  if (w->heat) write_temperature(w, 0.5 * (p->t0 + p->t1), w->h[0]);
   return fputc('\n', w->stream) == EOF;
 }
 

@@ -70,7 +70,9 @@ static json_t *place_entry(const run *r, size_t k) {
   if (entry && run_sun_exists(r->scene))
     json_put(&entry, "sunlight", sunlight(r, r->places[k], r->options->at.items[k].t));
   if (entry && run_heat_exists(r->scene))
-    json_put(&entry, "temperature", json_number(run_heat_at(r, r->places[k], value[bands])));
+    json_put(
+        &entry, "temperature",
+        json_number(run_heat_at(r, r->places[k], r->options->at.items[k].t, value[bands])));
   free(value);
   return entry;
 }

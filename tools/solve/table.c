@@ -86,7 +86,7 @@ static int print_places(const run *r) {
     for (size_t b = 0; b < bands && run_sun_exists(r->scene); b++)
       printf(" %.*g", digits,
              hr2d_scene_sunlight_at(r->scene, r->places[k], o->at.items[k].t, b));
-    const double kelvin = run_heat_at(r, r->places[k], value[bands]);
+    const double kelvin = run_heat_at(r, r->places[k], o->at.items[k].t, value[bands]);
     if (!isnan(kelvin)) printf("  T %.*g", digits, kelvin);
     puts("");
   }

@@ -86,6 +86,9 @@ static const kind kinds[] = {
     {"row", .symmetric = SYMMETRIC_ROW, .epsilon = 1, .order = 2},
     {"sun and sky", .symmetric = SYMMETRIC_SUNNY, .error = 1e-3},
     {"furnace", .symmetric = SYMMETRIC_HEATED, .error = 1e-3},
+    {"greenhouse", "greenhouse.geojson", .error = 1e-5},
+    {"greenhouse of order 1", "greenhouse.geojson", .epsilon = 0.2, .order = 1},
+    {"shields of order 2", "radiation-shields.geojson", .epsilon = 0.3, .order = 2},
 };
 
 enum { KINDS = sizeof kinds / sizeof *kinds };
