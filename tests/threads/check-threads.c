@@ -89,12 +89,15 @@ static void fill(hr2d_scene *scene) {
   for (size_t k = 0; k < sizeof wall / sizeof *wall; k++) {
     const double emission[BANDS] = {k == 0, k == 10 ? .5 : 0}, rho = .3 + .05 * (double)k;
     const int inner = k == 5 || k == 6 || k == 10;
+    const double tau = .1;
     const hr2d_patch patch = {.a = {wall[k][0], wall[k][1]},
                               .b = {wall[k][2], wall[k][3]},
                               .emission = emission,
                               .emission_bands = BANDS,
                               .reflectance = &rho,
                               .reflectance_bands = 1,
+                              .transmittance = &tau,
+                              .transmittance_bands = k == 10,
                               .sides = inner ? HR2D_SIDES_BOTH : HR2D_SIDES_FRONT};
     ck_assert_int_eq(hr2d_scene_add(scene, &patch, NULL), HR2D_OK);
   }
