@@ -127,7 +127,7 @@ const char *PAGE(play_name)(const play *p, size_t patch) {
   return hr2d_scene_name(p->scene, patch);
 }
 
-/* For each patch its ends, then E and ρ of each band: 4 + 2·bands numbers. */
+/* For each patch its ends, then E, ρ and τ of each band: 4 + 3·bands numbers. */
 void PAGE(play_walls)(const play *p, double *out) {
   const size_t patches = hr2d_scene_patches(p->scene), bands = hr2d_scene_bands(p->scene);
   for (size_t k = 0; k < patches; k++) {
@@ -136,6 +136,8 @@ void PAGE(play_walls)(const play *p, double *out) {
     for (size_t band = 0; band < bands; band++) *out++ = hr2d_scene_emission(p->scene, k, band);
     for (size_t band = 0; band < bands; band++)
       *out++ = hr2d_scene_reflectance(p->scene, k, band);
+    for (size_t band = 0; band < bands; band++)
+      *out++ = hr2d_scene_transmittance(p->scene, k, band);
   }
 }
 

@@ -108,12 +108,12 @@ export class Library {
     });
   }
 
-  /** The patches as {name, a, b, emission, reflectance}, and the background. */
+  /** The patches as {name, a, b, emission, reflectance, transmittance}, and the background. */
   scene() {
     const { calls, play } = this;
     const count = calls.play_patches(play);
     const bands = calls.play_bands(play);
-    const stride = 4 + 2 * bands;
+    const stride = 4 + 3 * bands;
     const all = this.numbers(count * stride, (at) => calls.play_walls(play, at));
     const patches = Array.from({ length: count }, (_, k) => {
       const v = all.subarray(k * stride, (k + 1) * stride);
@@ -122,7 +122,8 @@ export class Library {
         a: [v[0], v[1]],
         b: [v[2], v[3]],
         emission: [...v.subarray(4, 4 + bands)],
-        reflectance: [...v.subarray(4 + bands)],
+        reflectance: [...v.subarray(4 + bands, 4 + 2 * bands)],
+        transmittance: [...v.subarray(4 + 2 * bands)],
       };
     });
     const background = Array.from({ length: bands }, (_, b) => calls.play_background(play, b));

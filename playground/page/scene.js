@@ -19,7 +19,8 @@ function isBackOf(back, front) {
     same(back.a, front.b) &&
     same(back.b, front.a) &&
     alike(back.emission, front.emission) &&
-    alike(back.reflectance, front.reflectance)
+    alike(back.reflectance, front.reflectance) &&
+    alike(back.transmittance, front.transmittance)
   );
 }
 
@@ -65,6 +66,7 @@ export class Scene {
       } else {
         properties.emission = value(w.emission);
         properties.reflectance = value(w.reflectance);
+        if (w.transmittance.some((t) => t > 0)) properties.transmittance = value(w.transmittance);
       }
       if (w.both) properties.sides = "both";
       return {
@@ -195,6 +197,7 @@ export class Scene {
       b,
       emission: Array(this.bands).fill(0),
       reflectance: Array(this.bands).fill(0.5),
+      transmittance: Array(this.bands).fill(0),
       both: true,
     });
     return this.walls.length - 1;

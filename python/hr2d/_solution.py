@@ -379,13 +379,14 @@ class Solution:
         with Call() as call:
             call.check(lib.hr2d_solution_gather_irradiance(self._raw, index, doubles(t), t.size,
                                                            writable(H)))
-        if self._own_light or self.scene._emits_as_found(index):
+        if (self._own_light or self.scene._emits_as_found(index)
+                or self.scene.other_side[index] != index):
             B = np.empty(shape)
             with Call() as call:
                 call.check(lib.hr2d_solution_gather(self._raw, index, doubles(t), t.size,
                                                     writable(B)))
             return Points(B, H)
-        # B' = E + ρ H' is what hr2d_solution_gather() would gather again.
+        # But on panes B' = E + ρ H' is what hr2d_solution_gather() would gather again.
         return Points(self.scene.emission[index] + self.scene.reflectance[index] * H, H)
 
     def field(self, points: Any, *, normals: Any = None, errors: bool = False,

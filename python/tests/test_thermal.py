@@ -62,3 +62,36 @@ def test_wavelengths_make_bands():
     s = scene.solve()
     assert s.H.sum(axis=1) == pytest.approx(np.full(3, SIGMA * 900. ** 4))
     assert s.temperatures.heat == pytest.approx(np.zeros(3), abs=1e-8)
+
+
+def make_rooms(**pane):
+    """Two rooms of 1200 K and 300 K, with something between them."""
+    scene = hr2d.Scene()
+    scene.add([(1, 1), (0, 1), (0, 0), (1, 0)], temperature=1200, emissivity=.6, name="hot")
+    scene.add([(1, 0), (2, 0), (2, 1), (1, 1)], temperature=300, emissivity=.6, name="cold")
+    scene.add([(1, 0), (1, 1)], sides="both", name="sheet", **pane)
+    return scene
+
+
+def test_a_shield_passes_its_heat_on():
+    scene = make_rooms(shield=True, emissivity=.3, back={"emissivity": .8})
+    s = scene.solve(error=1e-9)
+    t = s.temperatures
+    tau = .3 * .8 / 1.1
+    assert scene.transmittance[6:, 0] == pytest.approx([tau, tau], rel=1e-15)
+    assert list(scene.other_side) == [0, 1, 2, 3, 4, 5, 7, 6]
+    assert t.kelvin[6] == t.kelvin[7] and 300 < t.kelvin[6] < 1200
+    assert t.heat[6] == pytest.approx(-t.heat[7], rel=1e-9) and t.heat[7] > 0
+
+
+def test_a_pane_passes_light_on():
+    opaque = make_rooms(temperature=300, emissivity=.5).solve(error=1e-8).temperatures
+    scene = make_rooms(temperature=300, emissivity=.5, transmittance=.3)
+    pane = scene.solve(error=1e-8).temperatures
+    assert scene.reflectance[6, 0] == pytest.approx(.2)
+    at = scene.solve(error=1e-8).at("sheet", [.3, .5])
+    assert at.B.T == pytest.approx(scene.emission[6] + .2 * at.H.T + .3 * scene.solve(
+        error=1e-8).at("sheet (back)", [.7, .5]).H.T, rel=1e-12)
+    assert pane.heat[3:6].sum() < opaque.heat[3:6].sum() - 100
+    with pytest.raises(hr2d.SceneError, match="above 1"):
+        make_rooms(temperature=300, emissivity=.8, transmittance=.3)

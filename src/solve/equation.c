@@ -190,6 +190,10 @@ hr2d_status hr2di_equation_init(hr2di_equation *s, hr2d_linkset *links, const hr
   if (status) return status;
   hr2di_watch_phase(&s->watch, "rows");
   status = hr2di_transport_init(t, s->links, how->order, s->options.threads, &s->watch);
+  if (status == HR2D_ESTATE)
+    return hr2di_message_fail(&links->message, status,
+                              "the elements of both sides of a pane are not the same: divide "
+                              "both alike, or refine the links once more");
   t->scene = scene;
   if (how->roots) t->roots = how->roots;
   hr2di_transport_set_bands(t, 1);

@@ -117,6 +117,8 @@ static json_t *patch_entry(const hr2d_scene *scene, size_t k) {
   json_put(&patch, "b", json_numbers((double[]){s.b.x, s.b.y}, 2));
   json_put(&patch, "emission", bands(scene, k, hr2d_scene_emission));
   json_put(&patch, "reflectance", bands(scene, k, hr2d_scene_reflectance));
+  if (hr2d_scene_other_side(scene, k) != k)
+    json_put(&patch, "transmittance", bands(scene, k, hr2d_scene_transmittance));
   return patch;
 }
 

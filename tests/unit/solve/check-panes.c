@@ -338,6 +338,30 @@ START_TEST(both_sides_are_divided_alike) {
 }
 END_TEST
 
+/* What a caller divides otherwise is refused, and united where that can be. */
+START_TEST(sides_that_differ_are_refused) {
+  const rooms r = askew();
+  test_links t = test_make_links(make(&r), NULL, NULL, NULL, NULL);
+  test_refine(&t, 2, 0);
+  hr2d_solve_options options = HR2D_SOLVE_OPTIONS_INIT;
+  hr2d_solution *s = NULL;
+  ck_assert_int_eq(hr2d_hierarchy_divide(t.hierarchy, FRONT, .3, NULL), HR2D_OK);
+  ck_assert_int_eq(hr2d_solve(t.links, &options, &s), HR2D_ESTATE);
+  ck_assert_ptr_nonnull(strstr(hr2d_linkset_message(t.links), "both sides of a pane"));
+  test_refine(&t, 2, 0); /* divides the back at .7 */
+  ck_assert_int_eq(hr2d_solve(t.links, &options, &s), HR2D_OK);
+  hr2d_solution_destroy(s);
+  test_free_links(&t);
+  t = test_make_links(make(&r), NULL, NULL, NULL, NULL);
+  ck_assert_int_eq(hr2d_hierarchy_divide(t.hierarchy, FRONT, .3, NULL), HR2D_OK);
+  ck_assert_int_eq(hr2d_hierarchy_divide(t.hierarchy, BACK, .4, NULL), HR2D_OK);
+  hr2d_refine_options coarse = test_options(2, 0);
+  ck_assert_int_eq(hr2d_refine(t.links, &coarse), HR2D_EUNSUPPORTED);
+  ck_assert_ptr_nonnull(strstr(hr2d_linkset_message(t.links), "both sides of a pane"));
+  test_free_links(&t);
+}
+END_TEST
+
 /* Errors fall with ε, towards the answer of a target. */
 START_TEST(the_paper_converges) {
   const rooms r = askew();
@@ -571,7 +595,8 @@ TEST_SUITE("panes") {
   REPEAT_TESTS(6, "one temperature", one_temperature_stays);
   ADD_TESTS("laws", exchange_is_the_same_both_ways, front_and_back_may_change_places,
             light_adds_up, pieces_are_the_pane, split_panes_keep_their_sides,
-            both_sides_are_divided_alike, forced_panes_change_no_bit);
+            both_sides_are_divided_alike, sides_that_differ_are_refused,
+            forced_panes_change_no_bit);
   ADD_TESTS("scenes", panes_that_cannot_be_are_refused, light_has_somewhere_to_go,
             images_have_panes, the_sun_shines_through, light_reaches_what_is_behind,
             a_scene_as_bytes_keeps_panes, operators_have_panes);
