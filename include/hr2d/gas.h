@@ -22,6 +22,11 @@
  * layer of textbooks, 2E₃. In a flat world (#HR2D_SECTION_FLAT) T(x) = e^−x. A thin gas emits
  * 4κE_g, or πκE_g, per area of the section.
  *
+ * **Heat.** Of a gas whose heat Q is given, 0 in a furnace whose flue gas neither burns nor
+ * flows, the temperature follows: E_g = (Q + ∑ G_i B_i)/∑ G_i. It is one more patch that sees
+ * all others. Needs a closed scene of one band. Where Q is so negative that E_g would be, or
+ * nothing absorbs, solves return HR2D_ENO_SOLUTION.
+ *
  * **Open scenes.** A line that meets no patch stays in gas for ever, and brings E_g.
  *
  * **What goes through gas.** hr2d_solve(), hr2d_solve_to() to averages, and what is read from
@@ -30,8 +35,8 @@
  * points as the norm of a target, view factors and exchange matrices, operators, enclosures,
  * states, shares, and predictions. So does hr2d_scene_commit() if the scene has a background, a
  * sky or a sun with light, mirrors, a period, a κ that differs from band to band, patches that
- * see the backs of others, or patches of given flux in several bands. Far pairs of patches are
- * not clustered.
+ * see the backs of others, patches of given flux in several bands, or a gas of given heat in
+ * several bands. Far pairs of patches are not clustered.
  *
  * Exchange areas of links (hr2d_link::exchange_area) are those without gas.
  * @{
@@ -93,8 +98,9 @@ HR2D_API void hr2d_gas_init(hr2d_gas *gas, size_t size);
  * @retval HR2D_EINVAL  a number of bands without values; both E_g and T; `given` or `section`
  *                      outside of its enumeration; or `struct_size` is not set
  * @retval HR2D_ESTATE  the scene is committed
- * @retval HR2D_ESCENE  κ, E_g or T is negative or not finite, or E_g is beyond a double
- * @retval HR2D_EUNSUPPORTED  the scene has a gas already; or the heat of the gas is given
+ * @retval HR2D_ESCENE  κ, E_g or T is negative or not finite, the heat is not finite, E_g is
+ *                      beyond a double, or κ and E_g have different numbers of bands
+ * @retval HR2D_EUNSUPPORTED  the scene has a gas already
  */
 HR2D_API hr2d_status hr2d_scene_add_gas(hr2d_scene *scene, const hr2d_gas *gas, size_t *index);
 

@@ -139,8 +139,11 @@ static hr2d_status link_elements(hr2di_graded *a, const hr2di_graded *coarse,
   options.progress = target->progress;
   options.progress_ctx = target->progress_ctx;
   options.share = target->share;
-  hr2d_status status = hr2d_linkset_create(a->hierarchy, hr2di_admissibility_oracle(), NULL,
-                                           hr2di_admissibility_fixed_leaves(), NULL, &a->links);
+  const hr2d_scene *scene = a->hierarchy->scene;
+  double *absorption = hr2di_scene_has_gas(scene) ? &scene->gas->scaled : NULL;
+  hr2d_status status =
+      hr2d_linkset_create(a->hierarchy, hr2di_admissibility_oracle(), absorption,
+                          hr2di_admissibility_fixed_leaves(), NULL, &a->links);
   if (status) return status;
   status = find_roots(a->links, coarse, fineness, target);
   if (!status && options.share && !a->pieces.rows)

@@ -2,6 +2,8 @@
 /* Links as large as the kernel is smooth, on elements as large as radiosity is smooth. */
 #include "mesh/admissibility.h"
 
+#include <math.h>
+
 #include "geometry/bernstein-ellipse.h"
 #include "geometry/predicates.h"
 #include "oracle/built-in.h"
@@ -10,6 +12,22 @@
    kernel's, which a link drops, only the kernel's is small, and so it must be smaller: at 6 the
    links' part of the error is below that of the elements, for some percent more of them. */
 #define ROUGH 6.0
+
+/* Through gas e^−κr changes on an element with children by this exponent at most: then it is as
+   smooth as on the ellipse ROUGH.  Elements as far from each other as DARK exchange nothing. */
+#define ROUGH_DEPTH 0.5
+#define DARK        44
+
+static double depth_between(const hr2d_element *i, const hr2d_element *j, double absorption) {
+  const double centres = hypot(i->centre.x - j->centre.x, i->centre.y - j->centre.y);
+  return absorption * (centres - 0.5 * (i->length + j->length));
+}
+
+/* Whether gas lets elements be linked. */
+static int is_clear(const hr2d_element *i, const hr2d_element *j, double absorption) {
+  const double rough = fmax(i->child ? i->length : 0, j->child ? j->length : 0) * absorption;
+  return rough <= ROUGH_DEPTH || depth_between(i, j, absorption) > DARK;
+}
 
 /* The ellipse that an element needs. */
 static double distance_for(const hr2d_element *e) {
@@ -24,12 +42,12 @@ static int is_separate(const hr2d_element *i, const hr2d_element *j, int partial
 }
 
 static hr2d_status estimate(void *ctx, const hr2d_batch *batch, double *error) {
-  (void)ctx;
+  const double *absorption = ctx;
   for (size_t k = 0; k < batch->count; k++) {
     const hr2d_pair pair = batch->pairs[k];
+    const hr2d_element *i = &batch->elements[pair.first], *j = &batch->elements[pair.second];
     const int partial = batch->partial && batch->partial[k];
-    error[k] =
-        !is_separate(&batch->elements[pair.first], &batch->elements[pair.second], partial);
+    error[k] = !is_separate(i, j, partial) || (absorption && !is_clear(i, j, *absorption));
   }
   return HR2D_OK;
 }

@@ -119,6 +119,26 @@ static unsigned levels_to(const hr2d_scene *scene, uint32_t patch, uint32_t othe
   return ratio > 1 ? (unsigned)fmin(ceil(log2(ratio)), DEEPEST) : 0;
 }
 
+/* Through gas H of a patch that stands at a corner has x ln x times the other's B − E_g and
+   twice κ/π, also if the other one reflects nothing; it is as strong as its elements are deep.
+ */
+static hr2di_grading_mark grade_corner_in_gas(const hr2di_grader *g, double cosine, double rho,
+                                              double depth) {
+  enum { SLOPE = 3 }; /* 1 + 2γ of γ = 1 */
+  const double p = g->grading->order, strength = rho * (1 + cosine) * fmin(depth, 1);
+  const double digits = log2(strength / SMALL / g->target) / SLOPE;
+  hr2di_grading_mark m = {.depth = g->grading->corner_levels,
+                          .halves = (unsigned)ceil(HR2DI_CHOICE_QUARTERS / SLOPE)};
+  if (!(strength > g->target) || g->grading->no_corner_grading) return m;
+  m.depth += (unsigned)fmin(fmax(ceil(digits - 2 * log2(p) + 1.5), 2), DEEPEST);
+  return m;
+}
+
+/* Levels from a patch to elements of the depth 1: B changes by e^−κx beside a corner. */
+static unsigned levels_in_gas(double depth) {
+  return depth > 1 ? (unsigned)fmin(ceil(log2(depth)), DEEPEST) : 0;
+}
+
 /* The deepest grading that a patch standing on this one asks for: it may lie on either side of
    its foot, or on both. */
 static hr2di_grading_mark grade_at(hr2di_grader *g, uint32_t patch,
@@ -132,12 +152,21 @@ static hr2di_grading_mark grade_at(hr2di_grader *g, uint32_t patch,
   const hr2d_point u = {(s.b.x - s.a.x), (s.b.y - s.a.y)};
   const hr2d_point w = {far.x - v->at.x, far.y - v->at.y};
   const double along = (u.x * w.x + u.y * w.y) / scale, up = (u.x * w.y - u.y * w.x) / scale;
+  const double own = hr2di_grading_reflectance(scene, patch);
+  const double depth = hr2di_scene_has_gas(scene)
+                           ? hr2di_scene_scaled_absorption(scene) * scene->patch[patch].length
+                           : 0;
   hr2di_grading_mark m = {.depth = 0};
-  if (!(rho > 0) || !(up > 0)) return m;
   /* Its front looks along u if it leads downwards. */
-  if (v->last && at < 1) m = grade_corner(g, along, up, rho);
-  if (!v->last && at > 0) m = grade_corner(g, -along, up, rho);
-  const unsigned levels = m.depth > 0 ? levels_to(scene, patch, v->patch) : 0;
+  const int seen = up > 0 && (v->last ? at < 1 : at > 0);
+  const double cosine = v->last ? along : -along;
+  if (seen && rho > 0) m = grade_corner(g, cosine, up, rho);
+  if (seen && own > 0 && depth > 0) {
+    const hr2di_grading_mark in_gas = grade_corner_in_gas(g, cosine, own, depth);
+    deepen(&m, &in_gas);
+  }
+  unsigned levels = m.depth > 0 ? levels_to(scene, patch, v->patch) : 0;
+  if (seen && own > 0) levels = levels > levels_in_gas(depth) ? levels : levels_in_gas(depth);
   m.depth += levels;
   m.halves += levels;
   return m;

@@ -32,8 +32,7 @@ static hr2d_status check_heat(hr2d_scene *scene, const hr2d_gas *g) {
   if (g->emission_bands)
     return refuse(scene, HR2D_EINVAL, "emission follows from what is given, and cannot be set");
   if (g->given == HR2D_HEAT_FLUX)
-    return refuse(scene, HR2D_EUNSUPPORTED,
-                  "its heat is given, for which this version does not find its temperature");
+    return isfinite(g->value) ? HR2D_OK : refuse(scene, HR2D_ESCENE, "heat is not finite");
   if (!(g->value >= 0 && isfinite(g->value)))
     return refuse(scene, HR2D_ESCENE, "temperature is not a number of kelvin");
   if (!isfinite(hr2d_black_body(g->value)))
@@ -102,7 +101,7 @@ int hr2di_scene_has_gas(const hr2d_scene *scene) {
 }
 
 double hr2di_scene_scaled_absorption(const hr2d_scene *scene) {
-  return ldexp(hr2d_scene_absorption(scene, 0, 0), scene->exponent);
+  return scene->gas->scaled;
 }
 
 hr2d_section hr2di_scene_section(const hr2d_scene *scene) {
@@ -112,6 +111,7 @@ hr2d_section hr2di_scene_section(const hr2d_scene *scene) {
 double hr2di_scene_gas_emission(const hr2d_scene *scene, size_t band) {
   const hr2di_gas *g = scene->gas;
   if (!hr2di_scene_has_gas(scene)) return 0;
+  if (g->given == HR2D_HEAT_FLUX) return 0;
   if (g->given == HR2D_HEAT_TEMPERATURE)
     return hr2di_scene_band_part(scene, g->value, band) * hr2d_black_body(g->value);
   const double *emission = g->values + g->absorption_bands;
@@ -119,7 +119,16 @@ double hr2di_scene_gas_emission(const hr2d_scene *scene, size_t band) {
   return emission[band % g->emission_bands];
 }
 
+int hr2di_scene_gas_is_free(const hr2d_scene *scene) {
+  return hr2di_scene_has_gas(scene) && scene->gas->given == HR2D_HEAT_FLUX;
+}
+
+double hr2di_scene_gas_heat(const hr2d_scene *scene) {
+  return hr2di_scene_gas_is_free(scene) ? scene->gas->value : 0;
+}
+
 int hr2di_scene_gas_emits(const hr2d_scene *scene) {
+  if (hr2di_scene_gas_is_free(scene)) return scene->gas->value != 0;
   for (size_t b = 0; b < scene->bands; b++)
     if (hr2di_scene_gas_emission(scene, b) > 0) return 1;
   return 0;
@@ -156,11 +165,17 @@ hr2d_status hr2di_scene_check_gas(hr2d_scene *scene, hr2di_watch *watch) {
     return refuse(scene, HR2D_EUNSUPPORTED,
                   "the absorption differs from band to band, which this version does not do");
   if (!hr2di_scene_has_gas(scene)) return HR2D_OK;
-  if (!isfinite(hr2di_scene_scaled_absorption(scene)))
+  scene->gas->scaled = ldexp(g->values[0], scene->exponent);
+  if (!isfinite(scene->gas->scaled))
     return refuse(scene, HR2D_ESCENE, "the absorption over a scene length is beyond a double");
   if (g->given == HR2D_HEAT_TEMPERATURE && scene->bands > scene->wavelengths + 1)
     return refuse(scene, HR2D_ESCENE,
                   "it has a temperature, and the scene has bands without wavelengths");
+  if (g->given == HR2D_HEAT_FLUX && (scene->bands > 1 || scene->wavelengths))
+    return refuse(
+        scene, HR2D_EUNSUPPORTED,
+        "its heat is given in several bands, for which this version does not find its "
+        "temperature");
   if (has_light_outside(scene))
     return hr2di_gas_refuses(scene, "light from a background, a sky or a sun does not go",
                              &scene->message);

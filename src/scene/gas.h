@@ -14,6 +14,7 @@ typedef struct hr2di_gas {
   hr2d_heat given;
   double value; /* as `given` says */
   hr2d_section section;
+  double scaled;   /* κ per unit of the scaled coordinates; set by commit */
   double values[]; /* κ, then E_g */
 } hr2di_gas;
 
@@ -24,12 +25,16 @@ size_t hr2di_scene_gas_bands(const hr2d_scene *scene);
    this, and so a scene without gas takes the way that it always took. */
 int hr2di_scene_has_gas(const hr2d_scene *scene);
 
-/* κ per unit of the scaled coordinates. */
+/* κ per unit of the scaled coordinates, of a scene with gas. */
 double hr2di_scene_scaled_absorption(const hr2d_scene *scene);
 hr2d_section hr2di_scene_section(const hr2d_scene *scene);
 
 /* Whether light comes from gas: it reaches every patch. */
 int hr2di_scene_gas_emits(const hr2d_scene *scene);
+
+/* Whether the heat of the gas is given, and it: in the unit of E times scene lengths. */
+int hr2di_scene_gas_is_free(const hr2d_scene *scene);
+double hr2di_scene_gas_heat(const hr2d_scene *scene);
 
 /* E_g of a band; 0 without gas, and if its heat is given. */
 double hr2di_scene_gas_emission(const hr2d_scene *scene, size_t band);

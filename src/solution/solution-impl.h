@@ -25,7 +25,7 @@ struct hr2d_solution {
   hr2d_power *power;     /* per band */
   double *power_cut_off; /* per band: what images that are cut off may make of it; NULL: none
                             are, or nobody knows */
-  double *gas_heat;      /* per band; NULL: no gas */
+  double *gas;           /* E_g and heat of each band; NULL: no gas */
   hr2d_solve_work work;
   double residual;
 };

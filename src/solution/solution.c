@@ -16,7 +16,7 @@ void hr2d_solution_destroy(hr2d_solution *solution) {
   hr2di_alloc_free(&alloc, solution->irradiance);
   hr2di_alloc_free(&alloc, solution->power);
   hr2di_alloc_free(&alloc, solution->power_cut_off);
-  hr2di_alloc_free(&alloc, solution->gas_heat);
+  hr2di_alloc_free(&alloc, solution->gas);
   hr2d_linkset_destroy(solution->own_links);
   hr2d_hierarchy_destroy(solution->own_hierarchy);
   hr2di_relit_destroy(solution->own_scene);
@@ -188,8 +188,8 @@ hr2d_status hr2d_solution_gas(const hr2d_solution *solution, size_t gas, size_t 
   if (!solution || band >= solution->bands) return HR2D_EINVAL;
   const hr2d_scene *scene = hr2di_solution_scene(solution);
   if (gas >= hr2d_scene_gases(scene)) return HR2D_EINVAL;
-  if (emission) *emission = hr2di_scene_gas_emission(scene, band);
-  if (heat) *heat = solution->gas_heat ? solution->gas_heat[band] : 0;
+  if (emission) *emission = solution->gas ? solution->gas[2 * band] : 0;
+  if (heat) *heat = solution->gas ? solution->gas[2 * band + 1] : 0;
   return HR2D_OK;
 }
 

@@ -29,11 +29,17 @@ static double absorptance_of(const hr2di_transport *t, size_t leaf, size_t band)
   return hr2di_scene_absorptance(t->scene, leaf_of(t, leaf)->patch, band);
 }
 
+/* Gas of given heat joins all patches. */
+static size_t component_of(const hr2di_transport *t, hr2di_components *c, size_t leaf) {
+  return t->gas_all > 0 ? 0 : hr2di_component(c, leaf_of(t, leaf)->patch);
+}
+
 /* 1 − K1, in one band; with gas that is m, which is known better. */
 static hr2d_status set_missing(hr2di_balance *b, hr2di_transport *t) {
   const size_t field = t->leaves * t->order, bands = t->bands;
   if (t->gas) {
     memcpy(b->missing, t->gas, field * sizeof *b->missing);
+    for (size_t k = 0; k < field && t->gas_all > 0; k++) b->missing[k] = 0;
     return HR2D_OK;
   }
   double *unit = hr2di_alloc_zero(&t->alloc, 2 * field, sizeof *unit);
@@ -64,7 +70,7 @@ static hr2d_status number(hr2di_balance *b, const hr2di_transport *t, hr2di_comp
                           tally *of) {
   hr2d_status status = HR2D_OK;
   for (size_t k = 0; k < t->leaves && !status; k++) {
-    tally *mine = &of[hr2di_component(c, leaf_of(t, k)->patch)];
+    tally *mine = &of[component_of(t, c, k)];
     const double length = hr2di_sum_total(&mine->length),
                  missing = hr2di_sum_total(&mine->missing);
     status = hr2di_watch_work(t->watch, 1);
@@ -88,7 +94,7 @@ static hr2d_status find_components(hr2di_balance *b, hr2di_transport *t) {
   if (!of || !b->component || !b->missing) status = HR2D_ENOMEM;
   if (!status) status = set_missing(b, t);
   for (size_t k = 0; k < t->leaves && !status; k++) {
-    tally *mine = &of[hr2di_component(&c, leaf_of(t, k)->patch)];
+    tally *mine = &of[component_of(t, &c, k)];
     const double area = leaf_of(t, k)->length;
     status = hr2di_watch_work(t->watch, 1);
     hr2di_sum_add(&mine->length, area);
@@ -240,7 +246,7 @@ double hr2di_balance_doubt(const hr2di_balance *b, const hr2di_transport *t) {
   const size_t bands = t->bands;
   const double rounding = t->blocks.single ? HR2DI_SINGLE_ROUNDING : DBL_EPSILON;
   double max = 0;
-  if (t->gas) return rounding;
+  if (t->gas && !(t->gas_all > 0)) return rounding;
   for (size_t k = 0; k < b->count * bands; k++)
     if (b->escape[k / bands] > 0 && b->level[k] != 0)
       max = fmax(max, rounding * b->length[k / bands] / b->loss[k]);

@@ -5,6 +5,7 @@
 #include "hierarchy/hierarchy-impl.h"
 #include "scene/scene-impl.h"
 #include "solve/equation.h"
+#include "solve/gas-light.h"
 
 /* The first patch with a negative flux; as many as there are patches if there is none. */
 static size_t find_taker(const hr2d_scene *scene) {
@@ -56,7 +57,13 @@ hr2d_status hr2di_equation_check_sign(hr2di_equation *s) {
   const hr2di_transport *t = &s->transport;
   const double min = t->order > 1 ? 1e-2 : 1e-6;
   const size_t taker = find_taker(t->scene);
-  if (taker < t->scene->patches) return check_averages(s, min);
+  const int takes = hr2di_scene_gas_heat(t->scene) < 0;
+  if (takes && hr2di_gas_light_emission(t, 0, s->exponent[0], s->radiosity) < 0)
+    return hr2di_message_fail(
+        &s->links->message, HR2D_ENO_SOLUTION,
+        "no solution: the gas would be colder than 0 K: its negative heat "
+        "takes away more than there is");
+  if (takes || taker < t->scene->patches) return check_averages(s, min);
   for (size_t b = 0; b < t->bands; b++) {
     double low = 0, high = 0;
     const hr2d_status status = hr2di_watch_work(t->watch, t->leaves / 16);

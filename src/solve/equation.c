@@ -18,6 +18,7 @@
 #include "solve/background.h"
 #include "solve/closure.h"
 #include "solve/external-irradiance.h"
+#include "solve/gas-light.h"
 #include "solve/gas-rows.h"
 #include "solve/row-sums.h"
 
@@ -86,7 +87,8 @@ static void set_exponents(hr2di_equation *s) {
   const hr2d_scene *scene = s->transport.scene;
   for (size_t b = 0; b < scene->bands; b++) {
     double max = fmax(hr2di_sky_max(scene, b), hr2d_scene_sun(scene, b).irradiance);
-    max = fmax(max, hr2di_scene_gas_emission(scene, b));
+    if (s->transport.gas)
+      max = fmax(max, fabs(hr2di_gas_light_emission(&s->transport, b, 0, s->y)));
     for (size_t k = 0; k < scene->patches; k++)
       max = fmax(max, fabs(hr2d_scene_emission(scene, k, b)));
     s->exponent[b] = max > 0 ? ilogb(max) : 0;
@@ -156,7 +158,7 @@ static hr2d_status set_outside(hr2di_equation *s) {
   if (!s->outside) s->outside = hr2di_alloc(&s->links->alloc, s->field, sizeof *s->outside);
   if (!s->outside) return HR2D_ENOMEM;
   const hr2d_status status = hr2di_external_set(t, s->light, s->exponent, s->outside);
-  if (has_gas) hr2di_gas_rows_add(t, s->exponent, s->outside);
+  if (has_gas) hr2di_gas_light_add(t, s->exponent, s->outside);
   return status;
 }
 

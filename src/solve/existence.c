@@ -134,10 +134,26 @@ static hr2d_status sum_exchange(const hr2d_linkset *links, exchange *e, hr2di_wa
   return status ? status : hr2di_watch_work(watch, scene->patches / 2);
 }
 
+/* Gas absorbs everywhere; if its heat is given, only patches keep what they absorb. */
+static hr2d_status check_gas(hr2d_linkset *links, const hr2d_scene *scene) {
+  int absorbs = 0, sends = hr2di_scene_gas_emits(scene);
+  if (!hr2di_scene_gas_is_free(scene)) return HR2D_OK;
+  for (size_t k = 0; k < scene->patches; k++) {
+    absorbs |= hr2d_scene_reflectance(scene, k, 0) < 1;
+    sends |= hr2d_scene_emission(scene, k, 0) != 0 ||
+             hr2d_scene_heat(scene, k, NULL) == HR2D_HEAT_FLUX;
+  }
+  if (absorbs || !sends) return HR2D_OK;
+  return hr2di_message_fail(
+      &links->message, HR2D_ENO_SOLUTION,
+      "no solution: every reflectance is 1, or a flux is given, and so is "
+      "the heat of the gas, so that nothing tells how hot it is");
+}
+
 hr2d_status hr2di_existence_check(hr2d_linkset *links, const hr2d_scene *scene,
                                   hr2di_watch *watch) {
   const int heat = scene->found != NULL;
-  if (hr2di_scene_has_gas(scene)) return HR2D_OK; /* it absorbs everywhere */
+  if (hr2di_scene_has_gas(scene)) return check_gas(links, scene);
   if (!heat && !some_patch_absorbs_nothing(scene)) return HR2D_OK;
   const hr2d_allocator *alloc = &links->alloc;
   exchange e = {.defect = hr2di_alloc(alloc, scene->patches, sizeof *e.defect),

@@ -3,7 +3,6 @@
    has its own digits however thin the gas is: m is their sum. */
 #include "solve/gas-rows.h"
 
-#include <math.h>
 #include <string.h>
 
 #include "base/alloc.h"
@@ -60,41 +59,38 @@ static hr2d_status check_backs(hr2di_transport *t, hr2di_message *message) {
   return status;
 }
 
+/* Gas of given heat needs all of its light: what leaves the scene would heat gas outside. */
+static hr2d_status take_heat(hr2di_transport *t, hr2di_message *message) {
+  hr2di_sum all = {0, 0};
+  if (!hr2di_scene_gas_is_free(t->hierarchy->scene)) return HR2D_OK;
+  if (!t->all_closed)
+    return hr2di_message_fail(message, HR2D_EUNSUPPORTED,
+                              "the heat of the gas is given, and the scene is open: light that "
+                              "leaves it would heat gas without end");
+  for (size_t k = 0; k < t->leaves; k++)
+    hr2di_sum_add(&all, t->hierarchy->element[t->leaf[k]].length * t->gas[k * t->order]);
+  t->gas_all = hr2di_sum_total(&all);
+  return HR2D_OK;
+}
+
 hr2d_status hr2di_gas_rows_set(hr2di_transport *t, int closed, hr2di_message *message) {
   const size_t field = t->leaves * t->order;
   t->gas = hr2di_alloc_zero(&t->alloc, field, sizeof *t->gas);
+  t->gas_order = t->order;
   if (!t->gas) return HR2D_ENOMEM;
   hr2d_status status = sum_links(t);
   if (!status) hr2di_transport_lower(t, t->gas);
   if (!status) status = hr2di_transport_status(t);
   if (!status) status = hr2di_closure_set_order_p(t);
+  if (!status && !t->all_closed) status = check_backs(t, message);
+  if (!status) status = take_heat(t, message);
   if (status) return status;
-  if (!t->all_closed) status = check_backs(t, message);
   take_rows(t);
-  if (closed) return status;
+  if (closed) return HR2D_OK;
   hr2di_alloc_free(&t->alloc, t->closure);
   hr2di_alloc_free(&t->alloc, t->closed);
   t->closure = NULL;
   t->closed = NULL;
   t->all_closed = 0;
-  return status;
-}
-
-void hr2di_gas_rows_add(const hr2di_transport *t, const int *exponent, double *irradiance) {
-  for (size_t b = 0; b < t->bands; b++) {
-    const double emission = ldexp(hr2di_scene_gas_emission(t->scene, b), -exponent[b]);
-    for (size_t k = 0; k < t->leaves * t->order; k++)
-      irradiance[k * t->bands + b] += t->gas[k] * emission;
-  }
-}
-
-double hr2di_gas_rows_heat(const hr2di_transport *t, size_t band, double emission,
-                           const double *radiosity) {
-  hr2di_sum heat = {0, 0};
-  for (size_t k = 0; k < t->leaves * t->order; k++) {
-    const double area = t->hierarchy->element[t->leaf[k / t->order]].length;
-    const double rest = (k % t->order == 0 ? emission : 0) - radiosity[k * t->bands + band];
-    hr2di_sum_add(&heat, area * (t->gas[k] * rest));
-  }
-  return hr2di_sum_total(&heat);
+  return HR2D_OK;
 }

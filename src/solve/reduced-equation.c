@@ -34,6 +34,7 @@ static hr2d_status set_transport(hr2di_transport *t, const hr2di_transport *of, 
   *t = *of;
   t->order = order;
   t->width = order * t->bands;
+  t->by_blocks = order > 1 || t->gas;
   t->sweeps = 0;
   t->trees = (hr2di_push_pull){0};
   t->shared = NULL;

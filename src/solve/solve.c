@@ -15,7 +15,7 @@
 #include "solve/closure.h"
 #include "solve/equation.h"
 #include "solve/existence.h"
-#include "solve/gas-rows.h"
+#include "solve/gas-light.h"
 #include "solve/heat-scene.h"
 #include "solve/power-cut-off.h"
 #include "solve/solve-how.h"
@@ -69,14 +69,15 @@ static hr2d_status warm_start(hr2di_equation *s) {
   return HR2D_OK;
 }
 
-/* Adds the escaped power of a leaf.  In balanced components it is ∫mB.  Elsewhere it is the
-   power that the leaf sends less the power that it gets from patches: summed over all leaves,
-   the power that is sent and does not arrive. */
+/* Adds the escaped power of a leaf.  In balanced components, and in gas, it is ∫mB; gas of
+   given heat gives it back.  Elsewhere it is the power that the leaf sends less the power that
+   it gets from patches: summed over all leaves, the power that is sent and does not arrive. */
 static void add_escape(const hr2di_equation *s, size_t leaf, size_t band, hr2di_sum *escaped) {
   const hr2di_transport *t = &s->transport;
   const size_t at = leaf * t->width + band;
   const double area = s->weight[leaf * t->order];
   const double *missing = t->gas ? t->gas : s->balance.missing;
+  if (t->gas_all > 0) return;
   if (!t->gas && !hr2di_balance_holds(&s->balance, leaf)) {
     hr2di_sum_add(escaped, area * s->radiosity[at]);
     hr2di_sum_add(escaped, -area * s->irradiance[at]);
@@ -124,17 +125,17 @@ static int take_raised(hr2di_equation *s, const double *leaf_field, double *fiel
   return finite;
 }
 
-/* Sets the heat of the gas in all bands. */
+/* Sets E_g and the heat of the gas in all bands. */
 static hr2d_status set_gas(const hr2di_equation *s, hr2d_solution *made) {
   const hr2di_transport *t = &s->transport;
   const double unit = hr2d_scene_unit(t->scene);
-  made->gas_heat = hr2di_alloc(&made->alloc, t->bands, sizeof *made->gas_heat);
-  for (size_t b = 0; b < t->bands && made->gas_heat; b++) {
-    const double emission = ldexp(hr2di_scene_gas_emission(t->scene, b), -s->exponent[b]);
-    made->gas_heat[b] =
-        ldexp(unit * hr2di_gas_rows_heat(t, b, emission, s->radiosity), s->exponent[b]);
+  made->gas = hr2di_alloc(&made->alloc, t->bands, 2 * sizeof *made->gas);
+  for (size_t b = 0; b < t->bands && made->gas; b++) {
+    const int e = s->exponent[b];
+    made->gas[2 * b] = ldexp(hr2di_gas_light_emission(t, b, e, s->radiosity), e);
+    made->gas[2 * b + 1] = ldexp(unit * hr2di_gas_light_heat(t, b, e, s->radiosity), e);
   }
-  return made->gas_heat ? HR2D_OK : HR2D_ENOMEM;
+  return made->gas ? HR2D_OK : HR2D_ENOMEM;
 }
 
 /* Sets the powers of all bands, and what they are off. */

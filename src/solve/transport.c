@@ -12,6 +12,7 @@
 #include "hierarchy/pane-trees.h"
 #include "scene/scene-impl.h"
 #include "solve/block-part.h"
+#include "solve/gas-light.h"
 #include "solve/gather-areas.h"
 #include "solve/gather-blocks.h"
 #include "solve/gather-links.h"
@@ -366,4 +367,5 @@ void hr2di_transport_close(const hr2di_transport *t, const double *radiosity,
 void hr2di_transport_apply(hr2di_transport *t, const double *radiosity, double *irradiance) {
   hr2di_transport_apply_part(t, HR2DI_ALL_LINKS, radiosity, irradiance);
   hr2di_transport_close(t, radiosity, irradiance);
+  if (t->gas_all > 0) hr2di_gas_light_return(t, radiosity, irradiance);
 }

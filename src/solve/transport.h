@@ -36,6 +36,8 @@ typedef struct hr2di_transport {
   double *sky;      /* leaves × order: form factor of the background; NULL: none */
   double *gas;      /* leaves × order: the part m of the light of a leaf that gas absorbs, or
                        that escapes into it; so much of E_g arrives from it.  NULL: no gas */
+  size_t gas_order; /* coefficients on each leaf of `gas`; the first `order` of them count */
+  double gas_all;   /* ∫m if gas gives back what it takes, as its heat is given; else 0 */
   size_t slices;    /* parts into which the links are cut, whatever the number of threads */
   unsigned threads; /* as in options */
   hr2di_cluster_room room;

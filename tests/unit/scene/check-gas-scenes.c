@@ -120,7 +120,8 @@ START_TEST(wrong_gases_are_refused) {
   expect_refusal(&g, HR2D_EINVAL, "emission follows");
   g.emission_bands = 0;
   g.given = HR2D_HEAT_FLUX;
-  expect_refusal(&g, HR2D_EUNSUPPORTED, "its heat is given");
+  g.value = NAN;
+  expect_refusal(&g, HR2D_ESCENE, "heat is not finite");
 }
 END_TEST
 
@@ -166,6 +167,11 @@ START_TEST(some_scenes_have_no_gas) {
   expect_commit(draw_room(&uneven), HR2D_EUNSUPPORTED, "differs from band to band");
   expect_commit(draw_room(&partly), HR2D_EUNSUPPORTED, "differs from band to band");
   expect_commit(draw_room(&even), HR2D_OK, "");
+  hr2d_gas heated = even;
+  heated.given = HR2D_HEAT_FLUX;
+  expect_commit(draw_room(&heated), HR2D_EUNSUPPORTED, "its heat is given in several bands");
+  heated.absorption_bands = 1;
+  expect_commit(draw_room(&heated), HR2D_OK, "");
   const double vast = 1e308;
   const hr2d_gas thick = gas_of(&vast, 1);
   hr2d_scene *scene = draw_room(&thick);
@@ -358,7 +364,8 @@ START_TEST(files_have_gas) {
               {ROOM("0.5"), 0.5},
               {ROOM("{\"absorption\":2,\"temperature\":1500}"), 2},
               {ROOM("{\"absorption\":[3,3],\"emission\":[1,2],\"section\":\"flat\"}"), 3},
-              {ROOM("{\"absorption\":1,\"section\":\"long\",\"emission\":4}"), 1}};
+              {ROOM("{\"absorption\":1,\"section\":\"long\",\"emission\":4}"), 1},
+              {ROOM("{\"absorption\":6,\"flux\":-0.5}"), 6}};
   for (size_t k = 0; k < sizeof file / sizeof *file; k++) {
     hr2d_scene *scene = file_parsed(file[k].text);
     test_commit(scene);

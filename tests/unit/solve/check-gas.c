@@ -19,6 +19,7 @@ typedef struct room {
   double emission[WALLS], reflectance[WALLS];
   double kappa, gas; /* κ and E_g */
   hr2d_section section;
+  int free; /* `gas` is the heat of the gas in the place of E_g */
 } room;
 
 #define SQUARE                                                                                 \
@@ -48,6 +49,10 @@ static hr2d_gas gas_of(const room *r) {
   gas.emission = &r->gas;
   gas.absorption_bands = gas.emission_bands = 1;
   gas.section = r->section;
+  if (!r->free) return gas;
+  gas.emission_bands = 0;
+  gas.given = HR2D_HEAT_FLUX;
+  gas.value = r->gas;
   return gas;
 }
 
@@ -76,6 +81,12 @@ static double heat_of(const hr2d_solution *s, const hr2d_scene *scene, size_t wa
   return hr2d_solution_net_flux(s, wall, 0) * hr2d_scene_length(scene, wall);
 }
 
+static double gas_emission(const hr2d_solution *s) {
+  double emission;
+  ck_assert_int_eq(hr2d_solution_gas(s, 0, 0, &emission, NULL), HR2D_OK);
+  return emission;
+}
+
 static double gas_heat(const hr2d_solution *s) {
   double heat;
   ck_assert_int_eq(hr2d_solution_gas(s, 0, 0, NULL, &heat), HR2D_OK);
@@ -89,40 +100,145 @@ static const struct known {
   double wall[WALLS], gas;
 } known[] = {
     {"black, kappa 0.1",
-     {SQUARE, {0}, {0}, 0.1, 1, HR2D_SECTION_LONG},
+     {SQUARE, {0}, {0}, 0.1, 1, HR2D_SECTION_LONG, 0},
      {-0.0932393659614304323, -0.0932393659614304323, -0.0932393659614304323,
       -0.0932393659614304323},
      4 * 0.0932393659614304323},
     {"black, kappa 1",
-     {SQUARE, {0}, {0}, 1, 1, HR2D_SECTION_LONG},
+     {SQUARE, {0}, {0}, 1, 1, HR2D_SECTION_LONG, 0},
      {-0.570707619801953, -0.570707619801953, -0.570707619801953, -0.570707619801953},
      4 * 0.570707619801953},
     {"black, kappa 10",
-     {SQUARE, {0}, {0}, 10, 1, HR2D_SECTION_LONG},
+     {SQUARE, {0}, {0}, 10, 1, HR2D_SECTION_LONG, 0},
      {-0.957553514470964324, -0.957553514470964324, -0.957553514470964324,
       -0.957553514470964324},
      4 * 0.957553514470964324},
     {"black, flat world",
-     {SQUARE, {0}, {0}, 1, 1, HR2D_SECTION_FLAT},
+     {SQUARE, {0}, {0}, 1, 1, HR2D_SECTION_FLAT, 0},
      {-0.512022299880412, -0.512022299880412, -0.512022299880412, -0.512022299880412},
      4 * 0.512022299880412},
     {"grey, cold",
-     {SQUARE, {0}, {.5, .5, .5, .5}, 1, 1, HR2D_SECTION_LONG},
+     {SQUARE, {0}, {.5, .5, .5, .5}, 1, 1, HR2D_SECTION_LONG, 0},
      {-0.3622774630782, -0.3622774630782, -0.3622774630782, -0.3622774630782},
      1.4491098523128},
     {"floor of .8, cold gas",
-     {SQUARE, {.8}, {.2, .5, .8, .5}, 1, 0, HR2D_SECTION_LONG},
+     {SQUARE, {.8}, {.2, .5, .8, .5}, 1, 0, HR2D_SECTION_LONG, 0},
      {0.76536540548751, -0.074179499771803, -0.02223909341329, -0.074179499771803},
      -0.59476731253061},
     {"L, black",
-     {ELL, {0}, {0}, 1, 1, HR2D_SECTION_LONG},
+     {ELL, {0}, {0}, 1, 1, HR2D_SECTION_LONG, 0},
      {-1.42628777506050, -0.64426900279886, -0.66658913013706, -0.66658913013706,
       -0.64426900279886, -1.42628777506050},
      5.4742918159928},
     {"oven",
-     {4, {{0, 0}, {3, 0}, {3, 1}, {0, 1}}, {.16}, {.2, 1, 1, 1}, .25, 1, HR2D_SECTION_LONG},
+     {4, {{0, 0}, {3, 0}, {3, 1}, {0, 1}}, {.16}, {.2, 1, 1, 1}, .25, 1, HR2D_SECTION_LONG, 0},
      {-1.207821110425, 0, 0, 0},
      1.207821110425}};
+
+/* Rooms whose gas gets no heat, and E_g. */
+static const struct known adiabatic[] = {
+    {"left 1, right 0, else white",
+     {SQUARE, {0, 0, 0, 1}, {1, 0, 1, 0}, 1, 0, HR2D_SECTION_LONG, 1},
+     {0, -0.5356749890498, 0, 0.5356749890498},
+     0.5},
+    {"grey",
+     {SQUARE, {0, 0, 0, .6}, {.5, .3, .5, .4}, .5, 0, HR2D_SECTION_LONG, 1},
+     {-0.14245286164517, -0.20601040201602, -0.14245286164517, 0.49091612530637},
+     0.26136291642156},
+    {"L",
+     {ELL, {0, .7}, {.4, .3, 1, 1, .5, .2}, .5, 0, HR2D_SECTION_LONG, 1},
+     {-0.27088495399957, 0.57768344328803, 0, 0, -0.055094084234804, -0.25170440505365},
+     0.16957696729213}};
+
+START_TEST(gas_without_heat_finds_its_temperature) {
+  double worst = 0;
+  for (size_t n = 0; n < sizeof adiabatic / sizeof *adiabatic; n++) {
+    const struct known *k = &adiabatic[n];
+    hr2d_account account;
+    hr2d_scene *scene = draw(&k->room);
+    hr2d_solution *s = solve_to(scene, 1e-12, 1, &account);
+    for (size_t w = 0; w < k->room.walls; w++)
+      worst = fmax(worst, fabs(heat_of(s, scene, w) - k->wall[w]));
+    worst = fmax(worst, fabs(gas_emission(s) - k->gas));
+    ck_assert(gas_heat(s) == 0);
+    ck_assert_msg(worst < 1e-12, "%s: off by %.2e", k->name, worst);
+    hr2d_solution_destroy(s);
+    hr2d_scene_destroy(scene);
+  }
+  printf("heat and E_g are off by at most %.1e\n", worst);
+}
+END_TEST
+
+/* The E_g that is found, given, makes the same walls and the heat that was given. */
+START_TEST(given_heat_and_given_temperature_agree) {
+  for (int n = 0; n < 12; n++) {
+    randoms draws = randoms_stream(test_seed() + 2, n);
+    room r = {
+        ELL, {.5}, {0}, random_power(&draws, -9, 2), random_unit(&draws), (hr2d_section)(n % 2),
+        1};
+    for (size_t w = 0; w < r.walls; w++) r.reflectance[w] = n % 3 ? random_unit(&draws) : w > 0;
+    hr2d_account account;
+    hr2d_scene *scene = draw(&r);
+    hr2d_solution *s = solve_to(scene, 1e-9, 1, &account);
+    room given = r;
+    given.free = 0;
+    given.gas = gas_emission(s);
+    hr2d_scene *other = draw(&given);
+    hr2d_solution *t = solve_to(other, 1e-9, 1, &account);
+    ck_assert_double_eq_tol(gas_heat(t) / r.gas, 1, 1e-7);
+    ck_assert(gas_heat(s) == r.gas);
+    const hr2d_power p = hr2d_solution_power(s, 0);
+    ck_assert_double_eq_tol(p.received, r.gas, 1e-13);
+    ck_assert(p.escaped == 0);
+    ck_assert_double_eq_tol(p.absorbed, p.emitted + p.received, 1e-12);
+    for (size_t w = 0; w < r.walls; w++)
+      ck_assert_double_eq_tol(hr2d_solution_irradiance(t, w, 0),
+                              hr2d_solution_irradiance(s, w, 0), 1e-6);
+    hr2d_solution_destroy(s);
+    hr2d_solution_destroy(t);
+    hr2d_scene_destroy(scene);
+    hr2d_scene_destroy(other);
+  }
+}
+END_TEST
+
+/* Without a solution, and with heat in an open scene. */
+static void expect_failure(const room *r, hr2d_status status, const char *phrase) {
+  hr2d_account account;
+  hr2d_solution *solution = NULL;
+  hr2d_scene *scene = draw(r);
+  ck_assert_int_eq(hr2d_solve_to(scene, NULL, &solution, &account), status);
+  ck_assert_msg(strstr(account.reason, phrase) != NULL, "%s", account.reason);
+  hr2d_scene_destroy(scene);
+}
+
+START_TEST(gas_cannot_have_any_heat) {
+  room r = {SQUARE, {.5}, {1, 1, 1, 1}, 1, 0, HR2D_SECTION_LONG, 1};
+  expect_failure(&r, HR2D_ENO_SOLUTION, "nothing tells how hot it is");
+  r.emission[0] = 0;
+  r.gas = 1;
+  expect_failure(&r, HR2D_ENO_SOLUTION, "nothing tells how hot it is");
+  r.emission[0] = .5;
+  r.reflectance[0] = .5;
+  r.gas = -9;
+  expect_failure(&r, HR2D_ENO_SOLUTION, "colder than 0 K");
+  room open = {3, {{0, 0}, {1, 0}, {1, 1}}, {1}, {0}, 1, 0, HR2D_SECTION_LONG, 1};
+  open.corner[2] = (hr2d_point){1, 1};
+  hr2d_scene *scene = test_new_scene(NULL);
+  const hr2d_gas gas = gas_of(&open);
+  for (size_t k = 0; k < 2; k++)
+    ck_assert_int_eq(test_add_patch(scene, (hr2d_segment){open.corner[k], open.corner[k + 1]},
+                                    1, .5, HR2D_SIDES_FRONT),
+                     HR2D_OK);
+  ck_assert_int_eq(hr2d_scene_add_gas(scene, &gas, NULL), HR2D_OK);
+  test_commit(scene);
+  hr2d_account account;
+  hr2d_solution *solution = NULL;
+  ck_assert_int_eq(hr2d_solve_to(scene, NULL, &solution, &account), HR2D_EUNSUPPORTED);
+  ck_assert_ptr_nonnull(strstr(account.reason, "the scene is open"));
+  hr2d_scene_destroy(scene);
+}
+END_TEST
 
 START_TEST(rooms_of_independent_programs) {
   double worst = 0;
@@ -139,6 +255,34 @@ START_TEST(rooms_of_independent_programs) {
     hr2d_scene_destroy(scene);
   }
   printf("heat is off by at most %.1e\n", worst);
+}
+END_TEST
+
+/* Thick gas changes B beside corners over a depth of 1, and not elsewhere: elements follow. */
+START_TEST(thick_gas_reaches_its_targets) {
+  double worst = 0;
+  for (double kappa = 20; kappa < 1e5; kappa *= 5)
+    for (int hot = 0; hot < 2; hot++) {
+      const room r = {
+          ELL, {.3, 0, 1, 0, 0, .1}, {.5, .5, .9, 0, .8, .2}, kappa, hot, HR2D_SECTION_LONG, 0};
+      hr2d_account account;
+      hr2d_scene *scene = draw(&r);
+      hr2d_solution *fine = solve_to(scene, 1e-10, 1, &account);
+      hr2d_solution *s = solve_to(scene, 1e-4, 1, &account);
+      double largest = 0;
+      for (size_t w = 0; w < r.walls; w++)
+        largest = fmax(largest, hr2d_solution_average(s, w, 0));
+      for (size_t w = 0; w < r.walls; w++) {
+        const double b = hr2d_solution_average(fine, w, 0);
+        const double off = fabs(hr2d_solution_average(s, w, 0) - b);
+        worst = fmax(worst, off / fmax(b, 1e-6 * largest) / account.average.bound);
+      }
+      hr2d_solution_destroy(s);
+      hr2d_solution_destroy(fine);
+      hr2d_scene_destroy(scene);
+    }
+  printf("B is off by at most %.2f of the bound\n", worst);
+  ck_assert_double_lt(worst, 1);
 }
 END_TEST
 
@@ -184,9 +328,13 @@ START_TEST(equilibrium_is_exact_on_any_elements) {
   double worst = 0, control = 0;
   for (int n = 0; n < 40; n++) {
     randoms draws = randoms_stream(test_seed(), n);
-    room r = {ELL, {0}, {0}, random_power(&draws, -12, 6), 2, (hr2d_section)(n % 2)};
+    room r = {ELL, {0}, {0}, random_power(&draws, -12, 6), 2, (hr2d_section)(n % 2), 0};
+    if (n % 3 == 1) { /* no heat goes to gas of the temperature of the walls */
+      r.free = 1;
+      r.gas = 0;
+    }
     for (size_t w = 0; w < r.walls; w++) {
-      r.reflectance[w] = n % 4 == 0 ? 1 : random_unit(&draws);
+      r.reflectance[w] = n % 4 == 0 && w > 0 ? 1 : random_unit(&draws);
       r.emission[w] = 2 * (1 - r.reflectance[w]);
     }
     test_links t;
@@ -197,10 +345,12 @@ START_TEST(equilibrium_is_exact_on_any_elements) {
       worst = fmax(worst, fabs(hr2d_solution_irradiance(s, w, 0) / 2 - 1));
     }
     ck_assert_double_lt(fabs(gas_heat(s)), 1e-13);
+    ck_assert_double_eq_tol(gas_emission(s), 2, 2e-13);
     hr2d_solution_destroy(s);
     test_free_links(&t);
     /* negative control: gas of another temperature is seen, if it is not too thin */
     if (r.kappa < 1e-3) continue;
+    r.free = 0;
     r.gas = 2.2;
     s = solve_by(&t, &r, orders[n % 5], 1);
     control = fmax(control, fabs(hr2d_solution_irradiance(s, 0, 0) / 2 - 1));
@@ -219,7 +369,7 @@ START_TEST(thin_gas_emits_by_its_volume) {
   for (int flat = 0; flat < 2; flat++)
     for (double kappa = 1e-4; kappa > 1e-13; kappa *= 1e-2) {
       const double emitted = (flat ? 3.14159265358979323846 : 4) * kappa * 3;
-      const room r = {ELL, {0}, {0}, kappa, 1, (hr2d_section)flat};
+      const room r = {ELL, {0}, {0}, kappa, 1, (hr2d_section)flat, 0};
       hr2d_account account;
       hr2d_scene *scene = draw(&r);
       hr2d_solution *s = solve_to(scene, 1e-12, 1, &account);
@@ -241,7 +391,7 @@ END_TEST
  */
 START_TEST(thin_gas_between_white_walls_keeps_its_digits) {
   for (double kappa = 1e-3; kappa > 1e-13; kappa *= 1e-3) {
-    const room r = {SQUARE, {0}, {0, 1, 1, 1}, kappa, 1, HR2D_SECTION_LONG};
+    const room r = {SQUARE, {0}, {0, 1, 1, 1}, kappa, 1, HR2D_SECTION_LONG, 0};
     hr2d_account account;
     hr2d_scene *scene = draw(&r);
     hr2d_solution *s = solve_to(scene, 1e-9, 1, &account);
@@ -258,7 +408,8 @@ START_TEST(powers_balance) {
   for (int n = 0; n < 30; n++) {
     randoms draws = randoms_stream(test_seed() + 1, n);
     room r = {
-        ELL, {0}, {0}, random_power(&draws, -9, 4), random_unit(&draws), (hr2d_section)(n % 2)};
+        ELL, {0}, {0}, random_power(&draws, -9, 4), random_unit(&draws), (hr2d_section)(n % 2),
+        0};
     for (size_t w = 0; w < r.walls; w++) {
       r.reflectance[w] = random_below(&draws, 4) ? random_unit(&draws) : 1;
       r.emission[w] = random_below(&draws, 2) ? random_unit(&draws) : 0;
@@ -279,7 +430,8 @@ END_TEST
 
 /* κ → ∞: walls see the gas beside them. */
 START_TEST(thick_gas_is_a_black_body) {
-  const room r = {ELL, {.3, 0, 0, 0, 0, .1}, {.1, .5, .9, 0, 1, .2}, 1e9, 2, HR2D_SECTION_LONG};
+  const room r = {ELL, {.3, 0, 0, 0, 0, .1}, {.1, .5, .9, 0, 1, .2}, 1e9, 2, HR2D_SECTION_LONG,
+                  0};
   hr2d_account account;
   hr2d_scene *scene = draw(&r);
   hr2d_solution *s = solve_to(scene, 1e-10, 1, &account);
@@ -363,7 +515,8 @@ static void expect_same(const room *r, const hr2d_gas *gas, int forces) {
 }
 
 START_TEST(no_gas_changes_no_bit) {
-  const room r = {ELL, {1, 0, 0, 0, 0, 0}, {.2, .5, .8, .3, .9, .4}, 0, 3, HR2D_SECTION_LONG};
+  const room r = {ELL, {1, 0, 0, 0, 0, 0}, {.2, .5, .8, .3, .9, .4}, 0, 3, HR2D_SECTION_LONG,
+                  0};
   hr2d_gas gas = gas_of(&r);
   expect_same(&r, &gas, 0);
   expect_same(&r, &gas, 1);
@@ -403,7 +556,9 @@ END_TEST
 
 TEST_SUITE("gas") {
   ADD_TESTS("values", rooms_of_independent_programs, bounds_hold_at_every_target,
-            open_scenes_end_in_gas);
+            thick_gas_reaches_its_targets, open_scenes_end_in_gas);
+  ADD_TESTS("heat", gas_without_heat_finds_its_temperature,
+            given_heat_and_given_temperature_agree, gas_cannot_have_any_heat);
   ADD_TESTS("balance", equilibrium_is_exact_on_any_elements, powers_balance);
   ADD_TESTS("limits", thin_gas_emits_by_its_volume,
             thin_gas_between_white_walls_keeps_its_digits, thick_gas_is_a_black_body);
