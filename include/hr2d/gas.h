@@ -34,9 +34,9 @@
  * what this version does not do: the oracles `l1` and `l1-grid`, gathers and fields at points,
  * points as the norm of a target, view factors and exchange matrices, operators, enclosures,
  * states, shares, and predictions. So does hr2d_scene_commit() if the scene has a background, a
- * sky or a sun with light, mirrors, a period, a κ that differs from band to band, patches that
- * see the backs of others, patches of given flux in several bands, or a gas of given heat in
- * several bands. Far pairs of patches are not clustered.
+ * sky or a sun with light, a period of which images are cut off, a κ that differs from band to
+ * band, patches of given flux in several bands, or a gas of given heat in several bands; and
+ * hr2d_solve() if patches see the backs of others. Far pairs of patches are not clustered.
  *
  * Exchange areas of links (hr2d_link::exchange_area) are those without gas.
  * @{
@@ -70,7 +70,8 @@ typedef struct hr2d_gas {
   hr2d_heat given;          /**< HR2D_HEAT_TEMPERATURE: `value` is T in kelvin, from which E_g
                                  follows: σT⁴, in each band its part of it. HR2D_HEAT_FLUX:
                                  `value` is the heat that the gas gives to patches, per length
-                                 of the enclosure, over all its area; 0: none. E_g follows */
+                                 of the enclosure, over all its area, and with mirrors over
+                                 that of the part that is drawn; 0: none. E_g follows */
   double value;             /**< as `given` says */
   hr2d_section section;     /**< how lines leave the plane */
 } hr2d_gas;

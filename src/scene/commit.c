@@ -120,6 +120,7 @@ static hr2d_status commit_images(hr2d_scene *scene, hr2di_watch *watch) {
     hr2di_scene_clear_commit(scene);
   }
   if (!status) status = check_far_sky(scene);
+  if (!status) status = hr2di_scene_check_far_gas(scene);
   if (status) hr2di_scene_clear_commit(scene);
   return status;
 }

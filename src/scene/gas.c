@@ -179,9 +179,14 @@ hr2d_status hr2di_scene_check_gas(hr2d_scene *scene, hr2di_watch *watch) {
   if (has_light_outside(scene))
     return hr2di_gas_refuses(scene, "light from a background, a sky or a sun does not go",
                              &scene->message);
-  if (hr2di_symmetry_wanted(&scene->symmetry))
-    return hr2di_gas_refuses(scene, "mirrors and periods do not go", &scene->message);
   if (hr2di_scene_is_unsettled(scene))
     return hr2di_gas_refuses(scene, "given fluxes in several bands do not go", &scene->message);
   return HR2D_OK;
+}
+
+hr2d_status hr2di_scene_check_far_gas(hr2d_scene *scene) {
+  if (!hr2di_symmetry_cuts(&scene->symmetry)) return HR2D_OK;
+  return hr2di_gas_refuses(
+      scene, "light of images that are cut off, which the period has, is not known",
+      &scene->message);
 }

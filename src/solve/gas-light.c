@@ -7,11 +7,16 @@
 #include "hierarchy/hierarchy-impl.h"
 #include "scene/scene-impl.h"
 
+double hr2di_gas_light_area(const hr2di_transport *t, size_t leaf) {
+  const hr2d_element *e = &t->hierarchy->element[t->leaf[leaf]];
+  return e->patch < hr2di_scene_cell(t->scene) ? e->length : 0;
+}
+
 /* ∫mB */
 static double taken(const hr2di_transport *t, size_t band, const double *radiosity) {
   hr2di_sum sum = {0, 0};
   for (size_t k = 0; k < t->leaves; k++) {
-    const double area = t->hierarchy->element[t->leaf[k]].length;
+    const double area = hr2di_gas_light_area(t, k);
     for (size_t l = 0; l < t->order; l++)
       hr2di_sum_add(&sum, area * (t->gas[k * t->gas_order + l] *
                                   radiosity[k * t->width + l * t->bands + band]));
@@ -56,7 +61,7 @@ double hr2di_gas_light_heat(const hr2di_transport *t, size_t band, int exponent,
   if (t->gas_all > 0) return heat_of(t, exponent);
   const double emission = hr2di_gas_light_emission(t, band, exponent, radiosity);
   for (size_t k = 0; k < t->leaves * t->order; k++) {
-    const double area = t->hierarchy->element[t->leaf[k / t->order]].length;
+    const double area = hr2di_gas_light_area(t, k / t->order);
     const double rest = (k % t->order == 0 ? emission : 0) - radiosity[k * t->bands + band];
     hr2di_sum_add(&heat, area * (t->gas[k] * rest));
   }

@@ -5,6 +5,9 @@
 
 #include "solve/transport.h"
 
+/* The length of a leaf in integrals over the patches: 0 on images. */
+double hr2di_gas_light_area(const hr2di_transport *t, size_t leaf);
+
 /* Adds the irradiance that comes from gas whatever B is, divided by 2^exponent of the band:
    m E_g, or m Q/∫m of a gas of the heat Q. */
 void hr2di_gas_light_add(const hr2di_transport *t, const int *exponent, double *irradiance);

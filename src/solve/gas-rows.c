@@ -11,6 +11,7 @@
 #include "scene/scene-impl.h"
 #include "scene/with-plane.h"
 #include "solve/closure.h"
+#include "solve/gas-light.h"
 #include "visibility/back-visibility.h"
 
 /* Sums over links into t->down, one after the other. */
@@ -26,6 +27,7 @@ static hr2d_status sum_links(hr2di_transport *t) {
     for (size_t l = 0; l < order && !links->directed; l++)
       t->down[pair.second * order + l] += lost[stride + l];
   }
+  hr2di_image_map_fold(&t->image_map, order, 1, t->down);
   for (size_t e = 0; e < t->elements; e++)
     for (size_t l = 0; l < order; l++)
       t->down[e * order + l] /= t->hierarchy->element[e].length;
@@ -68,7 +70,7 @@ static hr2d_status take_heat(hr2di_transport *t, hr2di_message *message) {
                               "the heat of the gas is given, and the scene is open: light that "
                               "leaves it would heat gas without end");
   for (size_t k = 0; k < t->leaves; k++)
-    hr2di_sum_add(&all, t->hierarchy->element[t->leaf[k]].length * t->gas[k * t->order]);
+    hr2di_sum_add(&all, hr2di_gas_light_area(t, k) * t->gas[k * t->order]);
   t->gas_all = hr2di_sum_total(&all);
   return HR2D_OK;
 }

@@ -485,6 +485,53 @@ START_TEST(open_scenes_end_in_gas) {
 }
 END_TEST
 
+/* Half a room at a mirror is the room. */
+START_TEST(mirrors_stand_in_gas) {
+  for (int n = 0; n < 12; n++) {
+    randoms draws = randoms_stream(test_seed() + 3, n);
+    const double top = 0.5 + random_unit(&draws), tip = 0.5 + random_unit(&draws);
+    room r = {6,
+              {{0, 0}, {1, 0}, {1, top}, {0, tip}, {-1, top}, {-1, 0}},
+              {0},
+              {0},
+              random_power(&draws, -6, 2),
+              random_unit(&draws),
+              (hr2d_section)(n % 2),
+              n % 3 == 0};
+    static const size_t image[] = {5, 4, 3};
+    for (size_t w = 0; w < 3; w++) {
+      r.emission[w] = r.emission[image[w]] = w == 1 || n % 2 ? random_unit(&draws) : 0;
+      r.reflectance[w] = r.reflectance[image[w]] = random_unit(&draws);
+    }
+    /* the floor is two patches: (0,0) to (1,0), and (−1,0) to (0,0) */
+    hr2d_account account;
+    hr2d_scene *whole = draw(&r), *half = test_new_scene(NULL);
+    hr2d_gas gas = gas_of(&r);
+    if (r.free) gas.value = r.gas / 2;
+    for (size_t w = 0; w < 3; w++)
+      ck_assert_int_eq(test_add_patch(half, (hr2d_segment){r.corner[w], r.corner[w + 1]},
+                                      r.emission[w], r.reflectance[w], HR2D_SIDES_FRONT),
+                       HR2D_OK);
+    ck_assert_int_eq(hr2d_scene_add_gas(half, &gas, NULL), HR2D_OK);
+    ck_assert_int_eq(hr2d_scene_add_mirror(half, (hr2d_segment){{0, 0}, {0, 1}}), HR2D_OK);
+    test_commit(half);
+    hr2d_solution *s = solve_to(whole, 1e-9, 1, &account),
+                  *t = solve_to(half, 1e-9, 1, &account);
+    for (size_t w = 0; w < 3; w++)
+      ck_assert_double_eq_tol(
+          hr2d_solution_irradiance(t, w, 0) / hr2d_solution_irradiance(s, w, 0), 1, 1e-8);
+    ck_assert_double_eq_tol(2 * gas_heat(t), gas_heat(s), 1e-8);
+    ck_assert_double_eq_tol(gas_emission(t), gas_emission(s), 1e-8);
+    const hr2d_power p = hr2d_solution_power(t, 0);
+    ck_assert_double_eq_tol(p.absorbed + p.escaped, p.emitted + p.received, 1e-13);
+    hr2d_solution_destroy(s);
+    hr2d_solution_destroy(t);
+    hr2d_scene_destroy(whole);
+    hr2d_scene_destroy(half);
+  }
+}
+END_TEST
+
 /* Every bit and every counter. */
 static void expect_same(const room *r, const hr2d_gas *gas, int forces) {
   hr2d_account account[2];
@@ -562,5 +609,6 @@ TEST_SUITE("gas") {
   ADD_TESTS("balance", equilibrium_is_exact_on_any_elements, powers_balance);
   ADD_TESTS("limits", thin_gas_emits_by_its_volume,
             thin_gas_between_white_walls_keeps_its_digits, thick_gas_is_a_black_body);
+  ADD_TESTS("images", mirrors_stand_in_gas);
   ADD_TESTS("bits", no_gas_changes_no_bit, threads_change_no_bit);
 }
