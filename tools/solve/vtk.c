@@ -10,10 +10,16 @@
 #include "run/leaves.h"
 #include "solve/solve.h"
 
+/* A leaf, and the fraction of its patch in its middle. */
+typedef struct leaf {
+  uint32_t element;
+  double middle;
+} leaf;
+
 typedef struct leaves {
   const run *run;
   run_heat heat;
-  uint32_t *element;
+  leaf *at;
   size_t count, room;
   size_t band; /* of the array that is written */
 } leaves;
@@ -22,17 +28,17 @@ static int add_leaf(void *ctx, const piece *p) {
   leaves *l = ctx;
   if (l->count == l->room) {
     const size_t room = l->room ? 2 * l->room : 1024;
-    uint32_t *larger = realloc(l->element, room * sizeof *larger);
+    leaf *larger = realloc(l->at, room * sizeof *larger);
     if (!larger) return complain_memory();
-    l->element = larger;
+    l->at = larger;
     l->room = room;
   }
-  l->element[l->count++] = p->element;
+  l->at[l->count++] = (leaf){p->element, p->t0 + 0.5 * (p->t1 - p->t0)};
   return 0;
 }
 
 static const hr2d_element *element_of(const leaves *l, size_t k) {
-  return &hr2d_hierarchy_elements(l->run->hierarchy)[l->element[k]];
+  return &hr2d_hierarchy_elements(l->run->hierarchy)[l->at[k].element];
 }
 
 /* Two points for each line. */
@@ -60,12 +66,12 @@ static double patch_of(const void *ctx, size_t k) {
 
 static double radiosity(const void *ctx, size_t k) {
   const leaves *l = ctx;
-  return hr2d_solution_element(l->run->solution, l->element[k], l->band);
+  return hr2d_solution_element(l->run->solution, l->at[k].element, l->band);
 }
 
 static double irradiance(const void *ctx, size_t k) {
   const leaves *l = ctx;
-  return hr2d_solution_element_irradiance(l->run->solution, l->element[k], l->band);
+  return hr2d_solution_element_irradiance(l->run->solution, l->at[k].element, l->band);
 }
 
 static double patch_radiosity(const void *ctx, size_t k) {
@@ -80,8 +86,8 @@ static double patch_irradiance(const void *ctx, size_t k) {
 
 static double temperature(const void *ctx, size_t k) {
   const leaves *l = ctx;
-  return run_heat_at(l->run, element_of(l, k)->patch,
-                     hr2d_solution_element_irradiance(l->run->solution, l->element[k], 0));
+  return run_heat_at(l->run, element_of(l, k)->patch, l->at[k].middle,
+                     hr2d_solution_element_irradiance(l->run->solution, l->at[k].element, 0));
 }
 
 static double patch_temperature(const void *ctx, size_t k) {
@@ -133,6 +139,6 @@ int solve_write_vtk(const run *r, const char *path) {
     status = leaves_walk(r->hierarchy, k, 0, add_leaf, &l);
   if (!status) status = write_file(&l, out.stream);
   run_heat_release(&l.heat);
-  free(l.element);
+  free(l.at);
   return output_close(&out, status);
 }
