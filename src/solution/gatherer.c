@@ -332,10 +332,12 @@ hr2d_status hr2di_gatherer_look(hr2di_gatherer *g, size_t patch, double t,
 hr2d_status hr2di_gatherer_init(hr2di_gatherer *g, const hr2d_solution *solution,
                                 hr2di_watch *watch) {
   *g = (hr2di_gatherer){.solution = solution, .watch = watch};
-  g->edge = hr2di_alloc(&solution->alloc, solution->bands, 3 * sizeof *g->edge);
+  g->edge = hr2di_alloc(&solution->alloc, solution->bands,
+                        (3 + HR2DI_SURFACE_ARRAYS) * sizeof *g->edge);
   if (!g->edge) return HR2D_ENOMEM;
   g->far = g->edge + solution->bands;
   g->current = g->far + solution->bands;
+  g->surface = g->current + solution->bands;
   hr2di_basis_init(&g->basis, solution->order);
   set_rules(g);
   return hr2di_point_viewer_create(hr2di_solution_scene(solution), &solution->alloc, watch,

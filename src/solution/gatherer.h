@@ -11,6 +11,9 @@
 
 enum { HR2DI_GATHER_POINTS = 32 /* of the longest rule */ };
 
+/* Of hr2di_gatherer::surface. */
+enum { HR2DI_SURFACE_ARRAYS = 10 };
+
 typedef struct hr2di_gatherer {
   const hr2d_solution *solution;
   hr2di_point_viewer *viewer;
@@ -26,6 +29,9 @@ typedef struct hr2di_gatherer {
   double *edge;  /* per band: the irradiance of the other patch of a wedge */
   double *far;   /* per band: the irradiance at the farther one of two points */
   double *current; /* per band: that from one visible interval */
+  double *surface; /* E and ρ of both sides of a wedge, the same behind a pane, what is passed,
+                      and how it grows; per band */
+  int behind;      /* a wedge behind a pane is looked at */
   int past;        /* the point sees what is past the ends of a period */
 } hr2di_gatherer;
 

@@ -4,7 +4,9 @@
    whatever the distance from its edge.  With the irradiance r from everything else the limits
    of B solve
      b_p = E_p + ρ_p (k b_q + r_p),   b_q = E_q + ρ_q (k b_p + r_q).
-   What passes a pane is a part of its E, from H of the solution on the other side. */
+   A pane p has another wedge behind it, where H is linear in what p sends: H' = A + Cτ H_p. So
+   it is in its own wedge as if it were opaque, b_p = (E_p + τA) + (ρ_p + τ²C) H_p. Where a pane
+   stands in the wedge behind a pane, too, what passes that is H of the solution. */
 #include <math.h>
 
 #include "geometry/predicates.h"
@@ -64,35 +66,60 @@ static hr2d_status examine_edge(hr2di_gatherer *g, const hr2di_edge *p, const hr
   return status;
 }
 
-/* E, and what passes a pane, at an edge. */
-static double sent_by(const hr2di_gatherer *g, const hr2di_edge *e, size_t band) {
+/* Arrays of g->surface. */
+enum { SENT, RHO, SIDES = 2, PASSED = 2 * SIDES * 2, GAIN };
+_Static_assert((int)GAIN + 1 == (int)HR2DI_SURFACE_ARRAYS, "arrays of surfaces");
+
+static double *surface_of(const hr2di_gatherer *g, int side, int what) {
+  return g->surface + (size_t)((g->behind * SIDES + side) * 2 + what) * g->solution->bands;
+}
+
+static hr2d_status look_behind(hr2di_gatherer *g, const hr2di_edge *p);
+
+/* E and ρ of a side of the wedge, as if it were opaque. */
+static hr2d_status set_surface(hr2di_gatherer *g, const hr2di_edge *e, int side) {
   const hr2d_scene *scene = hr2di_solution_scene(g->solution);
-  const double emission = hr2d_scene_emission(scene, e->patch, band);
-  if (!hr2di_pane_is(scene, e->patch)) return emission;
-  return emission + hr2d_scene_transmittance(scene, e->patch, band) *
-                        hr2d_solution_irradiance_at(g->solution,
-                                                    hr2di_scene_other_side(scene, e->patch),
-                                                    1 - e->at, band);
+  const size_t bands = g->solution->bands;
+  double *sent = surface_of(g, side, SENT), *rho = surface_of(g, side, RHO);
+  const int pane = hr2di_pane_is(scene, e->patch), own = side == 0;
+  const hr2d_status status = pane && !g->behind ? look_behind(g, e) : HR2D_OK;
+  const double *passed = g->surface + PASSED * bands, *gain = g->surface + GAIN * bands;
+  for (size_t b = 0; b < bands && !status; b++) {
+    const double tau = pane ? hr2d_scene_transmittance(scene, e->patch, b) : 0;
+    sent[b] = hr2d_scene_emission(scene, e->patch, b);
+    rho[b] = hr2d_scene_reflectance(scene, e->patch, b);
+    if (pane && !g->behind) {
+      sent[b] += tau * passed[b];
+      rho[b] += tau * tau * gain[b];
+    } else if (pane && !own) {
+      sent[b] += tau * hr2d_solution_irradiance_at(
+                           g->solution, hr2di_scene_other_side(scene, e->patch), 1 - e->at, b);
+    }
+  }
+  return status;
 }
 
 /* The irradiance at the edge of the wedge that two patches make; *closed is 0 if they do not
    see each other beside it. */
 static hr2d_status close_wedge(hr2di_gatherer *g, const hr2di_edge *p, const hr2di_edge *q,
                                double *irradiance, int *closed) {
-  const hr2d_scene *scene = hr2di_solution_scene(g->solution);
   const hr2d_point u = direction_of(g, p), w = direction_of(g, q);
   const hr2d_point sum = {u.x + w.x, u.y + w.y}, difference = hr2di_point_minus(u, w);
   const double k = 0.25 * hr2di_point_dot(sum, sum),
                rest = 0.25 * hr2di_point_dot(difference, difference);
-  hr2d_status status = examine_edge(g, p, q, rest, irradiance, closed);
+  hr2d_status status = set_surface(g, p, 0);
+  if (!status) status = set_surface(g, q, 1);
+  if (!status) status = examine_edge(g, p, q, rest, irradiance, closed);
   if (!status && *closed) status = examine_edge(g, q, p, rest, g->edge, closed);
   if (status || !*closed) return status;
+  const double *sent_p = surface_of(g, 0, SENT), *sent_q = surface_of(g, 1, SENT);
+  double *gain = g->surface + GAIN * g->solution->bands;
   for (size_t b = 0; b < g->solution->bands; b++) {
-    const double rho_p = hr2d_scene_reflectance(scene, p->patch, b);
-    const double rho_q = hr2d_scene_reflectance(scene, q->patch, b);
-    const double alone_p = sent_by(g, p, b) + rho_p * irradiance[b];
-    const double alone_q = sent_by(g, q, b) + rho_q * g->edge[b];
+    const double rho_p = surface_of(g, 0, RHO)[b], rho_q = surface_of(g, 1, RHO)[b];
+    const double alone_p = sent_p[b] + rho_p * irradiance[b];
+    const double alone_q = sent_q[b] + rho_q * g->edge[b];
     irradiance[b] += k * (alone_q + rho_q * k * alone_p) / (1 - rho_p * rho_q * k * k);
+    gain[b] = rho_q * k * k / (1 - rho_p * rho_q * k * k);
   }
   return HR2D_OK;
 }
@@ -128,16 +155,42 @@ static hr2d_status next_wedge(hr2di_gatherer *g, const hr2di_edge *p, size_t *k,
   return hr2di_watch_work(g->watch, seen.count / 8);
 }
 
-hr2d_status hr2di_gatherer_close_wedge(hr2di_gatherer *g, size_t patch, double t,
-                                       double *irradiance, int *closed) {
+static hr2d_status close_at(hr2di_gatherer *g, const hr2di_edge *p, double *irradiance,
+                            int *closed) {
   const hr2d_scene *scene = hr2di_solution_scene(g->solution);
-  const hr2di_edge p = edge_of(g, patch, t, t <= 0.5 ? 1 : -1);
   hr2di_edge q;
   hr2d_status status = HR2D_OK;
   *closed = 0;
   for (size_t k = 0; k < scene->patches && !*closed && !status; k++) {
-    status = next_wedge(g, &p, &k, &q);
-    if (!status && k < scene->patches) status = close_wedge(g, &p, &q, irradiance, closed);
+    status = next_wedge(g, p, &k, &q);
+    if (!status && k < scene->patches) status = close_wedge(g, p, &q, irradiance, closed);
   }
   return status;
+}
+
+/* Sets what the other side of a pane gets at an edge of it, without what passes from this side,
+   and how much more per light that does. */
+static hr2d_status look_behind(hr2di_gatherer *g, const hr2di_edge *p) {
+  const hr2d_scene *scene = hr2di_solution_scene(g->solution);
+  const size_t bands = g->solution->bands;
+  const hr2di_edge other =
+      edge_of(g, hr2di_scene_other_side(scene, p->patch), 1 - p->at, -p->inside);
+  double *passed = g->surface + PASSED * bands, *gain = g->surface + GAIN * bands;
+  double wedge, others;
+  int closed;
+  g->behind = 1;
+  hr2d_status status = close_at(g, &other, passed, &closed);
+  if (!status && !closed) {
+    for (size_t b = 0; b < bands; b++) gain[b] = 0;
+    status = hr2di_gatherer_look(g, other.patch, beside(g, &other, 1), NULL, passed, &wedge,
+                                 &others);
+  }
+  g->behind = 0;
+  return status;
+}
+
+hr2d_status hr2di_gatherer_close_wedge(hr2di_gatherer *g, size_t patch, double t,
+                                       double *irradiance, int *closed) {
+  const hr2di_edge p = edge_of(g, patch, t, t <= 0.5 ? 1 : -1);
+  return close_at(g, &p, irradiance, closed);
 }

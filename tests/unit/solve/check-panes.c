@@ -178,6 +178,29 @@ START_TEST(a_place_has_both_sides) {
 }
 END_TEST
 
+/* In a corner the limit is that of the wedges on both sides: a coarse solve has it far better
+   than its elements do. */
+START_TEST(corners_have_limits_of_both_sides) {
+  const rooms r = askew();
+  const double ends[] = {0, 1};
+  double b[2][2], elements[2];
+  for (int fine = 0; fine < 2; fine++) {
+    hr2d_scene *scene = make(&r);
+    hr2d_solution *s = solve_to(scene, fine ? 1e-9 : 1e-2, NULL);
+    ck_assert_int_eq(hr2d_solution_gather(s, FRONT, ends, 2, b[fine]), HR2D_OK);
+    for (int k = 0; k < 2 && !fine; k++) elements[k] = hr2d_solution_at(s, FRONT, ends[k], 0);
+    hr2d_solution_destroy(s);
+    hr2d_scene_destroy(scene);
+  }
+  for (int k = 0; k < 2; k++) {
+    printf("end %d: elements off by %.1e, the limit by %.1e\n", k, elements[k] / b[1][k] - 1,
+           b[0][k] / b[1][k] - 1);
+    ck_assert_double_le(fabs(b[0][k] / b[1][k] - 1), 1e-3);
+    ck_assert_double_le(fabs(b[0][k] - b[1][k]), .01 * fabs(elements[k] - b[1][k]));
+  }
+}
+END_TEST
+
 /* E = 1 − ρ of one wall, and what another absorbs, may change places. */
 START_TEST(exchange_is_the_same_both_ways) {
   rooms r = askew();
@@ -591,7 +614,8 @@ END_TEST
 
 TEST_SUITE("panes") {
   ADD_TESTS("values", a_lamp_shines_through, a_shield_is_a_pane, a_place_has_both_sides,
-            a_clear_scatterer_is_no_opening, the_paper_converges);
+            corners_have_limits_of_both_sides, a_clear_scatterer_is_no_opening,
+            the_paper_converges);
   REPEAT_TESTS(6, "one temperature", one_temperature_stays);
   ADD_TESTS("laws", exchange_is_the_same_both_ways, front_and_back_may_change_places,
             light_adds_up, pieces_are_the_pane, split_panes_keep_their_sides,
