@@ -62,7 +62,9 @@ static const command_entry commands[] = {
     {"schema", SCHEMA, "[NAME]", "[NAME]", "what scenes and results in JSON are",
      "Prints a JSON Schema (draft 2020-12), against which other programs check scenes\n"
      "and the output of --json.  Without NAME it lists them.\n",
-     NULL, "  hr2d schema scene\n"}};
+     NULL,
+     "  hr2d schema\n"
+     "  hr2d schema scene >scene-schema.json\n"}};
 
 const command_entry *command_at(size_t k) {
   return k < sizeof commands / sizeof *commands ? &commands[k] : NULL;
