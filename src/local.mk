@@ -228,6 +228,7 @@ libhr2d_core_la_SOURCES = \
 	src/field/irradiance.c \
 	src/field/leaf-errors.c src/field/leaf-errors.h \
 	src/field/leaves.c src/field/leaves.h \
+	src/field/light-in-gas.c src/field/light-in-gas.h \
 	src/field/light.c src/field/light.h \
 	src/field/locate.c src/field/locate.h \
 	src/field/past-ends.c src/field/past-ends.h \

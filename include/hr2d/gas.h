@@ -29,14 +29,20 @@
  *
  * **Open scenes.** A line that meets no patch stays in gas for ever, and brings E_g.
  *
- * **What goes through gas.** hr2d_solve(), hr2d_solve_to() to averages, and what is read from
- * their solutions. In a scene with gas these return HR2D_EUNSUPPORTED, as the whole list of
- * what this version does not do: the oracles `l1` and `l1-grid`, gathers and fields at points,
- * points as the norm of a target, view factors and exchange matrices, operators, enclosures,
- * states, shares, and predictions. So does hr2d_scene_commit() if the scene has a background, a
- * sky or a sun with light, a period of which images are cut off, a κ that differs from band to
- * band, patches of given flux in several bands, or a gas of given heat in several bands; and
- * hr2d_solve() if patches see the backs of others. Far pairs of patches are not clustered.
+ * **Points.** hr2d_solution_gather() and its companions, and hr2d_field_at() and
+ * hr2d_field_on_grid() see through gas. The mean M around a point has Ki₂ in the place of
+ * (4/π)Ki₃; the gas there gives 4κ(E_g − M) per area of the section, or πκ(E_g − M) in a flat
+ * world, which is ∇·q for a code of fluid dynamics. Nodes of a grid are all exact.
+ *
+ * **What goes through gas.** hr2d_solve(), hr2d_solve_to() to averages, what is read from their
+ * solutions, and points as above. In a scene with gas these return HR2D_EUNSUPPORTED, as the
+ * whole list of what this version does not do: the oracles `l1`, `l1-grid` and `bounds`; points
+ * as the norm of a target, errors of fields, and fields with a period; view factors and
+ * exchange matrices, operators, enclosures, states, shares, and predictions. So does
+ * hr2d_scene_commit() if the scene has a background, a sky or a sun with light, a period of
+ * which images are cut off, a κ that differs from band to band, patches of given flux in
+ * several bands, or a gas of given heat in several bands; and hr2d_solve() if patches see the
+ * backs of others. Far pairs of patches are not clustered.
  *
  * Exchange areas of links (hr2d_link::exchange_area) are those without gas.
  * @{

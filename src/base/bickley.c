@@ -69,6 +69,12 @@ hr2di_passage hr2di_passage_at(hr2d_section section, double x) {
   return x > 1 ? arriving(FOUR_OVER_PI * far(far_3, x)) : absorbing(FOUR_OVER_PI * lost_3(x));
 }
 
+hr2di_passage hr2di_passage_of_mean(hr2d_section section, double x) {
+  if (section == HR2D_SECTION_FLAT || !(x > 0)) return hr2di_passage_at(section, x);
+  if (x > 1) return arriving(far(far_2, x));
+  return absorbing(x * (2 * QUARTER_PI - x * near(log_2, rest_2, x)));
+}
+
 /* Gauss rules of 2, 3, 4 and 6 points on [0,1]. */
 static const double node[4][6] = {{0.21132486540518711775, 0.78867513459481288225},
                                   {0.11270166537925831148, 0.5, 0.88729833462074168852},

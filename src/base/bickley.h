@@ -27,6 +27,9 @@ typedef struct hr2di_passage {
 /* At a depth x ≥ 0. */
 hr2di_passage hr2di_passage_at(hr2d_section section, double x);
 
+/* The same of the mean over all directions around a point, at a depth x: Ki₂, or e^−x. */
+hr2di_passage hr2di_passage_of_mean(hr2d_section section, double x);
+
 /* The mean over depths that vary linearly from x to y. */
 hr2di_passage hr2di_passage_mean(hr2d_section section, double x, double y);
 

@@ -70,11 +70,13 @@ hr2d_status hr2di_field_open(hr2di_field_call *f, const hr2d_solution *solution,
                              const hr2d_field_values *values) {
   const hr2d_scene *scene = hr2di_solution_scene(solution);
   *f = (hr2di_field_call){.options = HR2D_FIELD_OPTIONS_INIT, .values = HR2D_FIELD_VALUES_INIT};
-  if (hr2di_scene_has_gas(scene)) return HR2D_EUNSUPPORTED;
   hr2d_status status = hr2di_sized_copy(&f->options, sizeof f->options, options);
   if (!status) status = hr2di_sized_copy(&f->values, sizeof f->values, values);
   if (!status && !has_normals(f, count)) status = HR2D_EINVAL;
   if (status) return status;
+  if (hr2di_scene_has_gas(scene) &&
+      (scene->symmetry.by.periodic || (f->options.patch_error && f->values.error)))
+    return HR2D_EUNSUPPORTED;
   hr2di_scene_watch(scene, &f->watch, f->options.progress, f->options.progress_ctx, "field");
   status = hr2di_field_scene_init(&f->scene, scene, &f->watch);
   f->opened = 1;

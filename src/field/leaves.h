@@ -20,11 +20,11 @@ typedef struct hr2di_leaves {
   hr2d_allocator alloc;
   size_t order;        /* of the polynomials below */
   const double *value; /* element by element: those of the solution, or: */
-  double *raised;      /* B on every element, as near as polynomials of a higher order are; NULL:
-                          not made */
-  double *difference;  /* per element: how much B differs from its polynomial, at most, as a part
-                          of what is allowed; NULL: nothing is */
-  hr2di_leaf *leaf; /* patch by patch, and along each patch */
+  double *raised;     /* B on every element, as near as polynomials of a higher order are; NULL:
+                         not made */
+  double *difference; /* per element: how much B differs from its polynomial, at most, as a part
+                         of what is allowed; NULL: nothing is */
+  hr2di_leaf *leaf;   /* patch by patch, and along each patch */
   size_t leaves, room;
   uint32_t *group; /* of each leaf; neighbours in one group differ by little where they meet; or
                       NULL */
@@ -34,8 +34,8 @@ typedef struct hr2di_leaves {
 
 /* With `max` leaves are merged: an element takes their place from which B differs by at most
    max[b] in band b.  Its polynomial has HR2DI_LEAVES_ORDER coefficients at least, so that it
-   stands for many leaves of a lower order.  NULL: all are kept.  HR2D_OK, HR2D_ENOMEM or the status of the watch; to
-   be ended by hr2di_leaves_clear() in any case. */
+   stands for many leaves of a lower order.  NULL: all are kept.  HR2D_OK, HR2D_ENOMEM or the
+   status of the watch; to be ended by hr2di_leaves_clear() in any case. */
 hr2d_status hr2di_leaves_init(hr2di_leaves *l, const hr2d_solution *solution, const double *max,
                               hr2di_watch *watch);
 void hr2di_leaves_clear(hr2di_leaves *l);

@@ -32,6 +32,7 @@
 
 #include "base/alloc.h"
 #include "base/pi.h"
+#include "field/light-in-gas.h"
 #include "geometry/bernstein-ellipse.h"
 #include "geometry/vector.h"
 #include "solution/panels.h"
@@ -51,7 +52,9 @@ static const unsigned char rule_points[HR2DI_LIGHT_RULES] = {2,  3,  4,  5,  6, 
 
 hr2d_status hr2di_light_source_init(hr2di_light_source *of, const hr2d_solution *solution,
                                     hr2di_watch *watch) {
-  *of = (hr2di_light_source){.solution = solution, .allowed = ROUNDING};
+  *of = (hr2di_light_source){.solution = solution,
+                             .allowed = ROUNDING,
+                             .has_gas = hr2di_scene_has_gas(solution->hierarchy->scene)};
   hr2di_basis_init(&of->basis, solution->order);
   for (int k = 0; k < HR2DI_LIGHT_RULES; k++) hr2di_rule_init(&of->rule[k], rule_points[k]);
   return hr2di_leaves_init(&of->leaves, solution, NULL, watch);
@@ -322,6 +325,20 @@ static void see_within(hr2di_light_sum *sum, const seen_patch *p, const seen_ele
   see_end(sum, (hr2d_point){near, 0});
 }
 
+static void add_in_gas(hr2di_light_sum *sum, const strip *s, hr2di_span part, hr2d_point right,
+                       hr2d_point left) {
+  const hr2di_gas_strip through = {s->from, s->along, part, s->coefficient};
+  hr2di_light_add_in_gas(sum, &through, angle_between(right, left), between(right, left));
+}
+
+/* A back sends nothing, but gas in front of it does. */
+static void add_back(hr2di_light_sum *sum, const hr2di_polygon_arc *s) {
+  const hr2di_gas_strip back = {s->right, hr2di_point_minus(s->left, s->right), {0, 1}, NULL};
+  sum->back += s->angle;
+  if (sum->of->has_gas)
+    hr2di_light_add_in_gas(sum, &back, s->angle, between(s->right, s->left));
+}
+
 /* A leaf, or the part of it between two fractions of the patch. */
 static void add_leaf(hr2di_light_sum *sum, const seen_patch *p, size_t k, hr2di_span seen,
                      hr2d_point right, hr2d_point left, double angle) {
@@ -334,7 +351,9 @@ static void add_leaf(hr2di_light_sum *sum, const seen_patch *p, size_t k, hr2di_
   strip s = strip_of(sum, p, &e);
   s.varies = leaf->varies;
   const hr2di_rule *rule = far_rule(of, leaf->element, &s, part);
-  if (rule)
+  if (of->has_gas)
+    add_in_gas(sum, &s, part, right, left);
+  else if (rule)
     add_panel(sum, &s, part, rule, 1);
   else
     add_near(sum, &s, part, right, left, angle);
@@ -439,12 +458,14 @@ void hr2di_light_add(hr2di_light_sum *sum, const hr2di_polygon_arc *s) {
     see_end(sum, s->left);
   }
   if (s->patch == HR2DI_ROUND_BACK) {
-    sum->back += s->angle;
+    add_back(sum, s);
   } else if (s->patch == HR2DI_ROUND_SKY) {
     sum->sky += s->angle;
     const hr2d_point vector = sum->flux ? between(s->right, s->left) : (hr2d_point){0, 0};
     for (size_t b = 0; b < bands; b++)
-      add_constant(sum, b, hr2d_scene_background(of->scene, b), s->angle, vector);
+      add_constant(sum, b,
+                   of->has_gas ? of->solution->gas[2 * b] : hr2d_scene_background(of->scene, b),
+                   s->angle, vector);
     add_pieces(sum, s);
     add_suns(sum, s);
   } else {

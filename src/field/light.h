@@ -23,11 +23,12 @@ typedef struct hr2di_light_source {
   const hr2d_solution *solution;
   const hr2d_scene *scene;
   hr2di_leaves leaves;
-  double allowed;       /* the error of ∫ B dω along an element, as a part of its angle times the
-                           largest coefficient */
+  double allowed; /* the error of ∫ B dω along an element, as a part of its angle times the
+                     largest coefficient */
   hr2di_light_far *far; /* of each element; NULL: none is far */
   hr2di_basis basis;
   hr2di_rule rule[HR2DI_LIGHT_RULES];
+  int has_gas; /* between the patches */
   int wants_flux;
   int lit_sky;               /* whether there is light where nothing stands */
   const double *patch_error; /* patches × bands, or NULL */

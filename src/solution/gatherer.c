@@ -14,6 +14,7 @@
 #include <math.h>
 
 #include "base/alloc.h"
+#include "base/bickley.h"
 #include "geometry/point-view-factor.h"
 #include "geometry/predicates.h"
 #include "geometry/vector.h"
@@ -58,6 +59,30 @@ static void add_constant(hr2di_gatherer *g, const chord *leaf, const double *coe
   for (size_t b = 0; b < g->solution->bands; b++) g->value[b] += factor * coefficient[b];
 }
 
+/* Through gas B is T(κr) B and what the gas sends on the way. */
+static double arriving(const hr2di_gatherer *g, hr2di_passage pass, double value, size_t band) {
+  return pass.arrives * value + pass.absorbed * g->solution->gas[2 * band];
+}
+
+static hr2di_passage passage_over(const hr2di_gatherer *g, double distance) {
+  const hr2d_scene *scene = g->solution->hierarchy->scene;
+  return hr2di_passage_at(hr2di_scene_section(scene), g->absorption * distance);
+}
+
+/* The light of a panel through gas, with the kernel at the points of a rule. */
+static void add_through_gas(hr2di_gatherer *g, const chord *leaf, const double *xi,
+                            const double *kernel, size_t points, const double *coefficient) {
+  const size_t bands = g->solution->bands;
+  for (size_t q = 0; q < points; q++) {
+    const hr2d_point r = hr2di_block_along(leaf->from, leaf->along, 0.5 + 0.5 * xi[q]);
+    const hr2di_passage pass = passage_over(g, sqrt(r.x * r.x + r.y * r.y));
+    for (size_t b = 0; b < bands; b++) {
+      const double value = hr2di_basis_sum(&g->basis, xi[q], coefficient + b, bands);
+      g->value[b] += kernel[q] * arriving(g, pass, value, b);
+    }
+  }
+}
+
 /* Sums of a panel come first, so that few roundings add up. */
 static void add_panel(hr2di_gatherer *g, const chord *leaf, hr2di_span panel,
                       const hr2di_rule *rule, const double *coefficient) {
@@ -79,7 +104,8 @@ static void add_panel(hr2di_gatherer *g, const chord *leaf, hr2di_span panel,
     factor += kernel[q];
   }
   g->factor += factor;
-  for (size_t b = 0; b < bands; b++) {
+  if (g->absorption > 0) add_through_gas(g, leaf, xi, kernel, points, coefficient);
+  for (size_t b = 0; b < bands && g->absorption == 0; b++) {
     double sum = 0;
     for (size_t q = 0; q < points; q++)
       sum += kernel[q] * hr2di_basis_sum(&g->basis, xi[q], coefficient + b, bands);
@@ -87,19 +113,37 @@ static void add_panel(hr2di_gatherer *g, const chord *leaf, hr2di_span panel,
   }
 }
 
+/* Panels are no deeper in gas, and their rules no shorter than those of this ellipse: so the
+   latter are enough for e^−κr.  Dark panels count for nothing. */
+#define DEEP        2
+#define DARK        44
+#define GAS_ELLIPSE 2.5
+
+static int is_deep(const hr2di_gatherer *g, const chord *leaf, hr2di_span panel) {
+  const hr2d_point from = hr2di_block_along(leaf->from, leaf->along, panel.from),
+                   to = hr2di_block_along(leaf->from, leaf->along, panel.to);
+  const double length = hypot(to.x - from.x, to.y - from.y);
+  const double least = fmin(hypot(from.x, from.y), hypot(to.x, to.y)) - length;
+  return g->absorption * length > DEEP && g->absorption * least < DARK;
+}
+
 /* Adds the light that a part of a leaf sends. */
 static void add_leaf(hr2di_gatherer *g, const chord *leaf, const double *coefficient,
                      hr2di_span part) {
   hr2di_panels panels = {.count = 1};
   if (!(part.to > part.from)) return;
-  if (g->solution->order == 1) {
+  if (g->solution->order == 1 && g->absorption == 0) {
     add_constant(g, leaf, coefficient, part);
     return;
   }
   panels.stack[0] = part;
   while (panels.count > 0) {
     const hr2di_span panel = panels.stack[--panels.count];
-    const double ellipse = hr2di_panel_ellipse(leaf->from, leaf->along, panel);
+    double ellipse = hr2di_panel_ellipse(leaf->from, leaf->along, panel);
+    if (g->absorption > 0) {
+      if (is_deep(g, leaf, panel) && hr2di_panel_halved(&panels, panel)) continue;
+      ellipse = fmin(ellipse, GAS_ELLIPSE);
+    }
     if (ellipse < HR2DI_NEAR_ELLIPSE && hr2di_panel_halved(&panels, panel)) continue;
     add_panel(g, leaf, panel, rule_for(g, ellipse), coefficient);
   }
@@ -182,9 +226,14 @@ static void add_one(hr2di_gatherer *g, const hr2di_visible_interval *seen) {
   add_leaves(g, seen);
   const double rest = seen->sine - g->factor;
   const hr2di_span inside = inside_of(seen);
-  const double at = hr2di_gatherer_nearest(g, seen->patch, inside.from, inside.to, NULL);
-  for (size_t b = 0; b < g->solution->bands; b++)
-    g->value[b] += rest * hr2d_solution_at(g->solution, seen->patch, at, b);
+  double distance;
+  const double at = hr2di_gatherer_nearest(g, seen->patch, inside.from, inside.to, &distance);
+  const hr2di_passage pass =
+      g->absorption > 0 ? passage_over(g, distance) : (hr2di_passage){1, 0};
+  for (size_t b = 0; b < g->solution->bands; b++) {
+    const double value = hr2d_solution_at(g->solution, seen->patch, at, b);
+    g->value[b] += rest * (g->absorption > 0 ? arriving(g, pass, value, b) : value);
+  }
 }
 
 /* Sets g->current to the light of a visible interval. */
@@ -317,6 +366,8 @@ hr2d_status hr2di_gatherer_look(hr2di_gatherer *g, size_t patch, double t,
     g->value[b] =
         background ? light_of_sky(g, seen.sky, b) + hr2d_scene_sunlight_at(scene, patch, t, b)
                    : 0;
+  for (size_t b = 0; b < g->solution->bands && g->absorption > 0; b++)
+    g->value[b] += seen.sky * g->solution->gas[2 * b];
   add_sky(g, patch, &seen);
   add_far_sky(g, tail.sky, tail.bearing, g->value);
   for (size_t k = 0; k < seen.count; k++) {
@@ -338,6 +389,8 @@ hr2d_status hr2di_gatherer_init(hr2di_gatherer *g, const hr2d_solution *solution
   g->far = g->edge + solution->bands;
   g->current = g->far + solution->bands;
   g->surface = g->current + solution->bands;
+  if (hr2di_scene_has_gas(solution->hierarchy->scene))
+    g->absorption = hr2di_scene_scaled_absorption(solution->hierarchy->scene);
   hr2di_basis_init(&g->basis, solution->order);
   set_rules(g);
   return hr2di_point_viewer_create(hr2di_solution_scene(solution), &solution->alloc, watch,

@@ -32,7 +32,8 @@ typedef struct hr2di_gatherer {
   double *surface; /* E and ρ of both sides of a wedge, the same behind a pane, what is passed,
                       and how it grows; per band */
   int behind;      /* a wedge behind a pane is looked at */
-  int past;        /* the point sees what is past the ends of a period */
+  double absorption; /* κ of the gas per unit of the scene; 0: there is none */
+  int past;          /* the point sees what is past the ends of a period */
 } hr2di_gatherer;
 
 /* A patch that touches the point, as one side of a wedge. */

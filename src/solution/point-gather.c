@@ -20,7 +20,6 @@ hr2d_status hr2di_solution_gather_irradiance(const hr2d_solution *solution, size
                                              const double *t, size_t count, double *value,
                                              hr2di_watch *watch) {
   hr2di_gatherer g;
-  if (hr2di_scene_has_gas(solution->hierarchy->scene)) return HR2D_EUNSUPPORTED;
   hr2d_status status = hr2di_gatherer_init(&g, solution, watch);
   for (size_t k = 0; k < count && !status; k++) {
     if (watch) watch->report.fraction = (double)k / (double)count;

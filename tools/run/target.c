@@ -144,7 +144,7 @@ void run_enclosed_errors(const run *r, double *average, double *irradiance) {
 }
 
 int run_gathers(const run *r) {
-  return (r->account.order > 1 || options_targeted(r->options)) && !scene_has_gas(r->scene);
+  return r->account.order > 1 || options_targeted(r->options);
 }
 
 int run_point(const run *r, size_t patch, double t, double *b, double *h) {

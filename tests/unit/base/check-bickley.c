@@ -176,6 +176,26 @@ START_TEST(means_over_chords_have_their_digits) {
 }
 END_TEST
 
+START_TEST(means_around_points_are_of_ki_2) {
+  double worst = 0;
+  mpfr_t exact;
+  mpfr_init2(exact, BITS);
+  for (int n = 0; n < test_count(1000); n++) {
+    randoms r = randoms_stream(test_seed() + 3, n);
+    const double x = n % 3 ? draw_depth(&r, n) : random_power(&r, -12, -2);
+    const hr2di_passage p = hr2di_passage_of_mean(HR2D_SECTION_LONG, x);
+    const hr2di_passage flat = hr2di_passage_of_mean(HR2D_SECTION_FLAT, x);
+    bickley(exact, 2, x);
+    worst = fmax(worst, off(p.arrives, exact));
+    mpfr_ui_sub(exact, 1, exact, MPFR_RNDN);
+    worst = fmax(worst, off(p.absorbed, exact));
+    ck_assert(flat.arrives == hr2di_passage_at(HR2D_SECTION_FLAT, x).arrives);
+  }
+  mpfr_clear(exact);
+  ck_assert_double_lt(worst, 1.1e-15);
+}
+END_TEST
+
 START_TEST(nothing_and_everything) {
   for (int s = 0; s < 2; s++) {
     const hr2d_section section = s ? HR2D_SECTION_FLAT : HR2D_SECTION_LONG;
@@ -193,5 +213,5 @@ END_TEST
 TEST_SUITE("bickley") {
   ADD_TESTS("bickley", bickley_functions_have_their_digits, what_is_absorbed_has_its_own_digits,
             a_difference_from_one_would_lose_digits, means_over_chords_have_their_digits,
-            nothing_and_everything);
+            means_around_points_are_of_ki_2, nothing_and_everything);
 }

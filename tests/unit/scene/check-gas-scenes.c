@@ -249,19 +249,7 @@ static hr2d_status no_state(void *ctx, void *bytes, size_t size) {
 
 /* Calls on a solution. */
 static void expect_solution(hr2d_solution *s, hr2d_status status) {
-  const double middle = 0.5;
-  const hr2d_point at = {0.5, 0.5};
-  double value[1];
-  hr2d_field_values values = HR2D_FIELD_VALUES_INIT;
-  hr2d_field_grid grid = HR2D_FIELD_GRID_INIT;
   hr2d_error average, sup;
-  values.mean = value;
-  grid.low = grid.high = at;
-  ck_assert_int_eq(hr2d_solution_gather(s, 0, &middle, 1, value), status);
-  ck_assert_int_eq(hr2d_solution_gather_irradiance(s, 0, &middle, 1, value), status);
-  ck_assert_int_eq(hr2d_solution_gather_net_flux(s, 0, &middle, 1, value), status);
-  ck_assert_int_eq(hr2d_field_at(s, &at, 1, NULL, &values), status);
-  ck_assert_int_eq(hr2d_field_on_grid(s, &grid, NULL, &values, NULL), status);
   ck_assert_int_eq(hr2d_solution_error(s, NULL, &average, &sup), status);
   ck_assert_int_eq(hr2d_solution_error(s, NULL, &average, NULL), HR2D_OK);
 }

@@ -8,6 +8,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/legendre.h"
 #include "support/support.h"
 
 enum { WALLS = 6 };
@@ -485,6 +486,118 @@ START_TEST(open_scenes_end_in_gas) {
 }
 END_TEST
 
+/* H at points has the averages that lines have, and everything of one temperature has no other.
+ */
+START_TEST(points_see_through_gas) {
+  double worst = 0, control = 0;
+  for (int n = 0; n < 12; n++) {
+    randoms draws = randoms_stream(test_seed() + 4, n);
+    const int isothermal = n % 3 == 0, black = n % 3 == 1;
+    room r = {ELL, {0}, {0}, random_power(&draws, -8, n % 2 ? 1 : 3), 2, (hr2d_section)(n % 2),
+              0};
+    for (size_t w = 0; w < r.walls; w++) {
+      r.reflectance[w] = black ? 0 : random_unit(&draws);
+      r.emission[w] = isothermal ? 2 * (1 - r.reflectance[w]) : random_unit(&draws);
+    }
+    hr2d_account account;
+    hr2d_scene *scene = draw(&r);
+    hr2d_solution *s = solve_to(scene, 1e-10, 1, &account);
+    for (size_t w = 0; w < r.walls; w++) {
+      enum { PANELS = 12, POINTS = 16 };
+      double sum = 0;
+      hr2di_rule rule;
+      hr2di_rule_init(&rule, POINTS);
+      for (int end = 0; end < 2; end++)
+        for (int k = 0; k < PANELS; k++) { /* graded to both ends */
+          const double high = ldexp(0.5, -2 * k), low = k + 1 < PANELS ? high / 4 : 0;
+          for (size_t q = 0; q < POINTS; q++) {
+            const double at = low + (high - low) * (0.5 + 0.5 * rule.at[q]);
+            const double t = end ? 1 - at : at;
+            double h;
+            ck_assert_int_eq(hr2d_solution_gather_irradiance(s, w, &t, 1, &h), HR2D_OK);
+            sum += (high - low) * rule.weight[q] * h;
+            if (isothermal) ck_assert_double_eq_tol(h, 2, 1e-10);
+          }
+        }
+      const double h = hr2d_solution_irradiance(s, w, 0);
+      /* the views of the L change at one point of some walls */
+      worst = fmax(worst, fabs(sum / h - 1) / (w == 0 || w == 5 ? 1e-4 : 1e-8));
+      control = fmax(control, fabs(hr2d_solution_irradiance_at(s, w, 0.01, 0) / h - 1));
+    }
+    hr2d_solution_destroy(s);
+    hr2d_scene_destroy(scene);
+  }
+  printf("averages of points are off by at most %.2g of what is allowed\n", worst);
+  ck_assert_double_lt(worst, 1);
+  ck_assert_double_gt(control, 1e-2);
+}
+END_TEST
+
+/* The heat of the gas is 4κ(E_g − M) at each point of it, or πκ(E_g − M); by a rule over a
+   square, a quarter of it graded to its corner. */
+static double heat_by_field(const hr2d_solution *s, double kappa, double factor) {
+  enum { PANELS = 4, POINTS = 8 };
+  double sum = 0;
+  hr2di_rule rule;
+  hr2di_rule_init(&rule, POINTS);
+  const double gas = gas_emission(s);
+  for (int k = 0; k < PANELS * PANELS * 4; k++) {
+    const int i = k % PANELS, j = k / PANELS % PANELS, corner = k / (PANELS * PANELS);
+    const double x1 = ldexp(0.5, -2 * i), x0 = i + 1 < PANELS ? x1 / 4 : 0;
+    const double y1 = ldexp(0.5, -2 * j), y0 = j + 1 < PANELS ? y1 / 4 : 0;
+    for (size_t q = 0; q < POINTS * POINTS; q++) {
+      const double x = x0 + (x1 - x0) * (0.5 + 0.5 * rule.at[q % POINTS]);
+      const double y = y0 + (y1 - y0) * (0.5 + 0.5 * rule.at[q / POINTS]);
+      const hr2d_point at = {corner % 2 ? 1 - x : x, corner / 2 ? 1 - y : y};
+      double mean;
+      hr2d_field_values values = HR2D_FIELD_VALUES_INIT;
+      values.mean = &mean;
+      ck_assert_int_eq(hr2d_field_at(s, &at, 1, NULL, &values), HR2D_OK);
+      sum += (x1 - x0) * (y1 - y0) * rule.weight[q % POINTS] * rule.weight[q / POINTS] *
+             (gas - mean);
+    }
+  }
+  return factor * kappa * sum;
+}
+
+START_TEST(the_field_has_the_heat_of_the_gas) {
+  for (int n = 0; n < 6; n++) {
+    const int flat = n % 2, free = n == 4;
+    const room r = {SQUARE,
+                    {.3, 1, 0, 0},
+                    {.1, .5, .9, 0},
+                    n < 2   ? 1e-6
+                    : n < 4 ? 1
+                            : 3,
+                    free ? 0 : 0.7,
+                    (hr2d_section)flat,
+                    free};
+    hr2d_account account;
+    hr2d_scene *scene = draw(&r);
+    hr2d_solution *s = solve_to(scene, 1e-9, 1, &account);
+    const double factor = flat ? 3.14159265358979323846 : 4;
+    const double by_field = heat_by_field(s, r.kappa, factor);
+    ck_assert_double_eq_tol(by_field / r.kappa, gas_heat(s) / r.kappa, 3e-6);
+    /* negative control: the other section */
+    if (!free)
+      ck_assert_double_gt(fabs(by_field * (4 - 0.8 * !flat) / factor - gas_heat(s)) / r.kappa,
+                          1e-3);
+    /* beside a wall the flux into it is H − B */
+    const double middle = 0.5;
+    const hr2d_point at = {0.5, 0};
+    double flux[2], h, b;
+    hr2d_field_values values = HR2D_FIELD_VALUES_INIT;
+    values.flux = flux;
+    ck_assert_int_eq(hr2d_field_at(s, &at, 1, NULL, &values), HR2D_OK);
+    ck_assert_int_eq(hr2d_solution_gather_irradiance(s, 0, &middle, 1, &h), HR2D_OK);
+    ck_assert_int_eq(hr2d_solution_gather(s, 0, &middle, 1, &b), HR2D_OK);
+    ck_assert_double_eq_tol(fabs(flux[1]), fabs(h - b), 1e-5);
+    hr2d_solution_destroy(s);
+    hr2d_scene_destroy(scene);
+  }
+}
+END_TEST
+
 /* Half a room at a mirror is the room. */
 START_TEST(mirrors_stand_in_gas) {
   for (int n = 0; n < 12; n++) {
@@ -609,6 +722,7 @@ TEST_SUITE("gas") {
   ADD_TESTS("balance", equilibrium_is_exact_on_any_elements, powers_balance);
   ADD_TESTS("limits", thin_gas_emits_by_its_volume,
             thin_gas_between_white_walls_keeps_its_digits, thick_gas_is_a_black_body);
+  ADD_TESTS("points", points_see_through_gas, the_field_has_the_heat_of_the_gas);
   ADD_TESTS("images", mirrors_stand_in_gas);
   ADD_TESTS("bits", no_gas_changes_no_bit, threads_change_no_bit);
 }

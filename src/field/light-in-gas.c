@@ -1,0 +1,107 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Panels shrink towards the point, as without gas, and until they are no deeper than DEEP.
+   Their sum of angles may miss a part of the angle, which is known, by roundings: that part has
+   the light of the nearest place. */
+#include "field/light-in-gas.h"
+
+#include <math.h>
+
+#include "base/bickley.h"
+#include "geometry/bernstein-ellipse.h"
+#include "geometry/vector.h"
+
+/* No rule is shorter than that of this ellipse: so they are enough for e^−κr on panels. */
+#define DEEP        2
+#define DARK        44
+#define GAS_ELLIPSE 2.5
+
+/* −ln of the error of a rule, as a part of B. */
+#define DIGITS 37
+
+/* From a place at some distance. */
+typedef struct passages {
+  hr2di_passage mean, flux;
+} passages;
+
+static passages passages_over(const hr2di_light_source *of, double distance) {
+  const hr2d_section section = hr2di_scene_section(of->scene);
+  const double depth = hr2di_scene_scaled_absorption(of->scene) * distance;
+  return (passages){hr2di_passage_of_mean(section, depth), hr2di_passage_at(section, depth)};
+}
+
+static const hr2di_rule *choose_rule(const hr2di_light_source *of, double ellipse) {
+  const double m = fmin(fmax(ellipse, HR2DI_NEAR_ELLIPSE), GAS_ELLIPSE);
+  const double points =
+      ((double)of->solution->order + DIGITS / log(m + sqrt(m * m - 1))) / 2 + 1;
+  int k = 0;
+  while (k + 1 < HR2DI_LIGHT_RULES && (double)of->rule[k].points < points) k++;
+  return &of->rule[k];
+}
+
+/* Adds the light of a place that takes an angle and ∫ω dω of it. */
+static void add_place(hr2di_light_sum *sum, const hr2di_gas_strip *s, double t, double angle,
+                      hr2d_point vector) {
+  const hr2di_light_source *of = sum->of;
+  const size_t bands = of->solution->bands;
+  const hr2d_point r = hr2di_block_along(s->from, s->along, t);
+  const passages pass = passages_over(of, sqrt(hr2di_point_dot(r, r)));
+  for (size_t b = 0; b < bands; b++) {
+    const double gas = of->solution->gas[2 * b];
+    const double value =
+        s->coefficient ? hr2di_basis_sum(&of->basis, 2 * t - 1, s->coefficient + b, bands) : 0;
+    const double mean = pass.mean.arrives * value + pass.mean.absorbed * gas;
+    const double flux = pass.flux.arrives * value + pass.flux.absorbed * gas;
+    sum->mean[b] += angle * mean;
+    if (!sum->flux) continue;
+    sum->flux[2 * b] += vector.x * flux;
+    sum->flux[2 * b + 1] += vector.y * flux;
+  }
+}
+
+static int is_deep(const hr2di_light_sum *sum, const hr2di_gas_strip *s, hr2di_span panel) {
+  const double absorption = hr2di_scene_scaled_absorption(sum->of->scene);
+  const hr2d_point from = hr2di_block_along(s->from, s->along, panel.from),
+                   to = hr2di_block_along(s->from, s->along, panel.to);
+  const double length = hypot(to.x - from.x, to.y - from.y);
+  const double least = fmin(hypot(from.x, from.y), hypot(to.x, to.y)) - length;
+  return absorption * length > DEEP && absorption * least < DARK;
+}
+
+/* Adds a panel, and what it takes of the angle. */
+static void add_panel(hr2di_light_sum *sum, const hr2di_gas_strip *s, hr2di_span panel,
+                      const hr2di_rule *rule, double *angle, hr2d_point *vector) {
+  const double size = panel.to - panel.from, cross = hr2di_point_cross(s->from, s->along);
+  for (size_t q = 0; q < rule->points; q++) {
+    const double t = panel.from + size * (0.5 + 0.5 * rule->at[q]);
+    const hr2d_point r = hr2di_block_along(s->from, s->along, t);
+    const double square = hr2di_point_dot(r, r);
+    if (!(square > 0)) continue;
+    const double weight = size * rule->weight[q] * cross / square, far = weight / sqrt(square);
+    const hr2d_point ray = {far * r.x, far * r.y};
+    *angle += weight;
+    *vector = (hr2d_point){vector->x + ray.x, vector->y + ray.y};
+    add_place(sum, s, t, weight, ray);
+  }
+}
+
+void hr2di_light_add_in_gas(hr2di_light_sum *sum, const hr2di_gas_strip *s, double angle,
+                            hr2d_point vector) {
+  const hr2di_light_source *of = sum->of;
+  hr2di_panels panels = {.count = s->part.to > s->part.from};
+  double found = 0;
+  hr2d_point by = {0, 0};
+  panels.stack[0] = s->part;
+  while (panels.count > 0) {
+    const hr2di_span panel = panels.stack[--panels.count];
+    const double m = hr2di_panel_ellipse(s->from, s->along, panel);
+    if ((m < HR2DI_NEAR_ELLIPSE || is_deep(sum, s, panel)) &&
+        hr2di_panel_halved(&panels, panel))
+      continue;
+    if (hr2di_watch_work(sum->watch, 8 + 2 * of->solution->order * of->solution->bands)) return;
+    add_panel(sum, s, panel, choose_rule(of, m), &found, &by);
+  }
+  const double size = hr2di_point_dot(s->along, s->along);
+  const double nearest = size > 0 ? -hr2di_point_dot(s->from, s->along) / size : 0;
+  add_place(sum, s, fmin(fmax(nearest, s->part.from), s->part.to), angle - found,
+            (hr2d_point){vector.x - by.x, vector.y - by.y});
+}
