@@ -54,7 +54,7 @@ bench_bench_operator_LDADD = libhr2d-core.la $(THREADS_LIBS) -lm
 bench_bench_choices_SOURCES = bench/bench-choices.c bench/timing.h $(SOLVE_TASKS)
 bench_bench_choices_CPPFLAGS = $(AM_CPPFLAGS) -DBENCH_SOURCE='"$(abs_top_srcdir)"'
 bench_bench_choices_LDADD = libhr2d-core.la $(THREADS_LIBS) -lm
-EXTRA_DIST += bench/choices.sh bench/scenes
+EXTRA_DIST += bench/choices.sh bench/gas.sh bench/scenes
 bench_bench_fibres_SOURCES = bench/bench-fibres.c bench/alone.c bench/alone.h bench/many.c \
 	bench/many.h bench/timing.h tests/support/random.c tests/support/random.h
 bench_bench_fibres_CPPFLAGS = $(AM_CPPFLAGS)

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/choices.h"
 #include "geometry/bernstein-ellipse.h"
 #include "geometry/predicates.h"
 #include "geometry/vector.h"

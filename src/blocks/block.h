@@ -9,7 +9,6 @@
 #include <hr2d/gas.h>
 #include <hr2d/oracle.h>
 
-#include "base/choices.h"
 #include "base/legendre.h"
 #include "base/watch.h"
 #include "blocks/lines.h"
@@ -31,9 +30,9 @@ typedef struct hr2di_pair_frame {
 #define HR2DI_DOUBLE_DIGITS 34
 #define HR2DI_SINGLE_DIGITS 22
 
-/* Points that e^−κr takes more on elements that are as deep as distant ones may be: on the
-   ellipse of 1.8 it grows by e^(0.75 κA), for which half a point per depth is enough. */
-enum { HR2DI_GAS_POINTS = HR2DI_CHOICE_GAS_DEPTH / 2 };
+/* Points that e^−κr takes more at most on distant elements: on the ellipse of 1.8 it grows by
+   e^(0.75 κA), for which half a point per depth is enough. */
+enum { HR2DI_GAS_POINTS = 2 };
 
 /* Work space of one thread. */
 typedef struct hr2di_integrator {

@@ -56,7 +56,7 @@ void hr2di_pair_frame_init(hr2di_pair_frame *f, const hr2d_hierarchy *h, hr2d_pa
 static size_t points_for(const hr2di_integrator *w, double m, double length) {
   size_t n = w->points;
   while (n > 1 && m >= w->separation[n - 2]) n--;
-  n += (size_t)ceil(w->absorption * length * HR2DI_GAS_POINTS / HR2DI_CHOICE_GAS_DEPTH);
+  n += (size_t)fmin(ceil(0.5 * w->absorption * length), HR2DI_GAS_POINTS);
   return n < HR2DI_RULE_POINTS ? n : HR2DI_RULE_POINTS;
 }
 

@@ -186,8 +186,11 @@ static hr2d_status check_bytes(const hr2di_graded *a, const hr2di_resolution *fi
   const uint64_t max = target->max_bytes;
   if (!max) return HR2D_OK;
   const double held = (double)hr2di_graded_bytes(a);
+  const unsigned order =
+      target->no_error ? fineness->order : hr2di_resolution_finer(fineness).order;
+  const size_t lost = hr2di_scene_has_gas(a->hierarchy->scene) ? 2 * order * sizeof(double) : 0;
   const double blocks = (double)hr2d_linkset_size(a->links) *
-                        (double)hr2di_graded_block_bytes(fineness, target->no_error);
+                        (double)(hr2di_graded_block_bytes(fineness, target->no_error) + lost);
   const double fields = field_bytes(a, fineness, target->no_error);
   if (held + blocks + fields <= (double)max) return HR2D_OK;
   return hr2di_message_fail(&a->links->message, HR2D_EMAX_BYTES,
