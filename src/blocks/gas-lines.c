@@ -36,7 +36,7 @@ double hr2di_gas_depth(const hr2di_integrator *w, const hr2di_trapezoid *t, size
    directions may be poles of both terms: it looks inside. */
 double hr2di_gas_points(const hr2di_integrator *w, const hr2di_trapezoid *t) {
   static const double part[] = {0.02, 0.25, 0.5, 0.75, 0.98};
-  enum { LOOKS = 5, MOST = 32, TOO_DARK = 300 };
+  enum { LOOKS = 5, MOST_POINTS = 32, TOO_DARK = 300 };
   double range = 0, all = 0;
   for (size_t vertex = 0; vertex < 2; vertex++) {
     double least = HUGE_VAL, most = 0;
@@ -50,7 +50,7 @@ double hr2di_gas_points(const hr2di_integrator *w, const hr2di_trapezoid *t) {
     all = fmax(all, fmin(most - least, TOO_DARK));
     if (least < DARK) range = fmax(range, most - least);
   }
-  return range > MOST ? HUGE_VAL : sqrt(all);
+  return range > MOST_POINTS ? HUGE_VAL : sqrt(all);
 }
 
 /* A part of the lines of one direction: parts `from` to `to` of the way from the end where
