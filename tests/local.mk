@@ -8,6 +8,7 @@ LDADD = tests/libsupport.la libhr2d-core.la $(CHECK_LIBS) $(MPFR_LIBS) $(THREADS
 # The longest ones begin: one that began last would run alone.
 SUITES = \
 	tests/unit/accuracy/check-short-patches.c \
+	tests/unit/accuracy/check-gas-bounds.c \
 	tests/unit/accuracy/check-shares.c \
 	tests/unit/solution/check-irradiance-points.c \
 	tests/unit/clusters/check-clusters.c \

@@ -465,6 +465,21 @@ for effect in occlusion interreflection emission bands two-sided facing backgrou
   hr2d solve "$far" --quiet --csv "$work/forced.csv" --force "$effect"
   check "forced $effect changes no bit" cmp -s "$work/one.csv" "$work/forced.csv"
 done
+
+# ---- gas
+gas="$scenes/furnace-gas.geojson"
+succeeds solve "$gas" --target-error 1e-6 --json "$work/gas.json"
+check "the gas is told" grep -q '^gas       emission 371614, gives 1.255e+06 to the patches$' "$work/out"
+check "the gas is written" grep -q '^  "gas": \[' "$work/gas.json"
+check "and its absorption" grep -q '"absorption": 0.2' "$work/gas.json"
+succeeds solve "$far" --json "$work/one.json"
+check "nothing is written without gas" not grep '"gas"' "$work/one.json"
+succeeds info "$gas"
+check "info tells the gas" grep -q '^gas           absorbs 0.2 per length$' "$work/out"
+through='the scene has a gas, "medium", through which this version does not compute'
+expect 1 "$through" factors "$gas"
+expect 1 "$through" cost "$gas"
+expect 1 "$through" solve "$gas" --target-error 1e-3 --norm sup
 sed 's/"emission": 1,//' "$narrow" >"$work/dark.geojson"
 hr2d study "$narrow" --quiet --csv "$work/one.csv"
 hr2d study "$work/dark.geojson" --quiet --csv "$work/dark.csv"
