@@ -169,8 +169,8 @@
 #define HR2DI_CHOICE_TEAM_LEAVES   64
 #define HR2DI_CHOICE_TEAM_PRODUCTS 100000
 
-/* Through gas, elements that are deeper than this are not distant: e^−κr takes as many points as
-   lines.  Not moved; bench/gas.sh measures what gas costs. */
+/* Through gas, elements that are deeper than this are not distant: e^−κr takes as many points
+   as lines.  Not moved; bench/gas.sh measures what gas costs. */
 #define HR2DI_CHOICE_GAS_DEPTH 4
 
 /* Shares: one with so many times the mean of the links is too many, and links are dealt anew.

@@ -50,8 +50,8 @@ hr2d_status hr2di_scene_make_gas(hr2d_scene *scene, const hr2d_gas *given, hr2di
 /* The part of commit: bands, and what gas does not go with.  Symmetry is known. */
 hr2d_status hr2di_scene_check_gas(hr2d_scene *scene, hr2di_watch *watch);
 
-/* Refuses gas where images of a period are seen that are cut off: what they send is extrapolated
-   by a law that gas does not follow. */
+/* Refuses gas where images of a period are seen that are cut off: what they send is
+   extrapolated by a law that gas does not follow. */
 hr2d_status hr2di_scene_check_far_gas(hr2d_scene *scene);
 
 #endif
