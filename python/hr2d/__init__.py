@@ -30,7 +30,7 @@ from ._links import Fit, Links, Study
 from ._operator import Gradient, Lights, Operator
 from ._scene import Scene, SceneWarning, Snap, Sun, black_body, exchange_area, read
 from ._points import PointFactors
-from ._solution import Account, Bounded, Field, Grid, Points, Power, Solution, Temperatures
+from ._solution import Account, Bounded, Field, Gas, Grid, Points, Power, Solution, Temperatures
 from ._solve import Prediction
 from ._strategy import SPLIT_BOTH, SPLIT_FIRST, SPLIT_SECOND, Batch, Oracle, Policy
 
@@ -38,7 +38,7 @@ __version__: str = _ffi.string(_lib.hr2d_version()).decode()
 
 __all__ = [
     "Account", "AccuracyError", "AccuracyWarning", "Batch", "Bounded", "CallbackError",
-    "Enclosure", "Error", "Field", "FileError", "Fit", "FormatError", "Gradient", "Grid",
+    "Enclosure", "Error", "Field", "FileError", "Fit", "FormatError", "Gas", "Gradient", "Grid",
     "InvalidArgument", "Law", "Lights", "LimitReached", "Links", "NoSolution", "NotConverged",
     "Operator", "Oracle", "OutOfMemory", "PointFactors", "Points", "Policy", "Power",
     "Prediction", "Progress", "RangeError", "SPLIT_BOTH", "SPLIT_FIRST", "SPLIT_SECOND",

@@ -128,8 +128,21 @@ def _surface(scene: Any, patch: int, knots: Any) -> Dict[str, Any]:
     if kind == lib.HR2D_HEAT_NONE:
         return {"emission": _plain_number(scene.emission[patch]),
                 "reflectance": _plain_number(scene.reflectance[patch])}
+    if kind == lib.HR2D_HEAT_SHIELD:
+        return {"shield": True, "emissivity": _emissivity(scene, patch, knots)}
     key = "temperature" if kind == lib.HR2D_HEAT_TEMPERATURE else "flux"
     return {key: given[0], "emissivity": _emissivity(scene, patch, knots)}
+
+
+def _sides(scene: Any, patch: int, knots: Any) -> Dict[str, Any]:
+    """A patch, or both sides of a pane."""
+    front, other = _surface(scene, patch, knots), int(scene.other_side[patch])
+    if other == patch:
+        return front
+    back = {k: v for k, v in _surface(scene, other, knots).items() if front.get(k) != v}
+    tau = {} if "shield" in front else {
+        "transmittance": _plain_number(scene.transmittance[patch])}
+    return {**front, **tau, "sides": "both", **({"back": back} if back else {})}
 
 
 def _line(ends: Any, properties: Dict[str, Any]) -> Dict[str, Any]:
@@ -156,8 +169,9 @@ def collection_of(scene: Any) -> Dict[str, Any]:
     knots: Any = set()
     for text in _texts(scene):
         _knots(text, knots)
-    features = [_line(ends, {"name": name, **_surface(scene, k, knots)})
-                for k, (name, ends) in enumerate(zip(scene.names, scene.segments))]
+    features = [_line(ends, {"name": name, **_sides(scene, k, knots)})
+                for k, (name, ends) in enumerate(zip(scene.names, scene.segments))
+                if k <= scene.other_side[k]]
     features += [_line(ends, {"sides": "mirror"}) for ends in scene.mirrors]
     members = _outside(scene)
     return {"type": "FeatureCollection", **({"hr2d": members} if members else {}),

@@ -194,6 +194,32 @@ class Scene:
         """
         self.add_text(outside_of({"sky": [list(piece) for piece in pieces]}))
 
+    def set_medium(self, absorption: Values, *, temperature: Optional[float] = None,
+                   flux: Optional[float] = None, emission: Optional[Values] = None,
+                   section: Optional[str] = None) -> None:
+        """Fills the scene with a grey gas that absorbs a part of what passes per length.
+
+        Its temperature in kelvin is given, or the heat `flux` that it gives to the patches, 0 if
+        it is adiabatic, or its own `emission`; without these it is cold.  `section` is "long"
+        (the default) or "flat".  gas.h says what does not go with it yet.
+
+        >>> scene = square()
+        >>> scene.set_medium(1)
+        >>> scene.absorption, scene.solve(error=1e-9).gas.heat.shape
+        (array([1.]), (1,))
+        """
+        medium = {"absorption": absorption, "temperature": temperature, "flux": flux,
+                  "emission": emission, "section": section}
+        self.add_text(outside_of({"medium": {k: v for k, v in medium.items() if v is not None}}))
+
+    @cached_property
+    def absorption(self) -> Array:
+        """κ of the gas per scene length, (bands,); 0 without one."""
+        self.commit()
+        gases = lib.hr2d_scene_gases(self._raw)
+        return frozen(np.array([lib.hr2d_scene_absorption(self._raw, 0, band) if gases else 0
+                                for band in range(self.bands)], dtype=np.float64))
+
     def add_mirror(self, a: Any, b: Any) -> None:
         """Adds a mirror: a line through two points, at which the scene is reflected."""
         line = ffi.new("hr2d_segment *", [[float(c) for c in a], [float(c) for c in b]])

@@ -45,6 +45,15 @@ class Power(NamedTuple):
     escaped: float
 
 
+class Gas(NamedTuple):
+    """What a solution says of the gas, per band."""
+
+    emission: Array
+    """E_g: the radiosity of a black body as hot as the gas."""
+    heat: Array
+    """What it emits to patches less what it absorbs of their light, per length of the enclosure."""
+
+
 class Points(NamedTuple):
     """Values at points, each of the shape of the points and then the bands."""
 
@@ -326,6 +335,18 @@ class Solution:
         """
         raws = [lib.hr2d_solution_power(self._raw, band) for band in range(self.scene.bands)]
         return tuple(Power(r.emitted, r.received, r.absorbed, r.escaped) for r in raws)
+
+    @cached_property
+    def gas(self) -> Optional[Gas]:
+        """The gas; None without one."""
+        if not lib.hr2d_scene_gases(self.scene._raw):
+            return None
+        numbers = np.empty((2, self.scene.bands))
+        with Call() as call:
+            for band in range(self.scene.bands):
+                call.check(lib.hr2d_solution_gas(self._raw, 0, band, writable(numbers[0, band:]),
+                                                 writable(numbers[1, band:])))
+        return Gas(frozen(numbers[0]), frozen(numbers[1]))
 
     @cached_property
     def power_cut_off(self) -> Tuple[float, ...]:

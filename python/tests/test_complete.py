@@ -179,6 +179,28 @@ def same_scene(one, other):
             one.images == other.images and np.array_equal(one.background, other.background))
 
 
+def test_panes_shields_and_gas_are_written(tmp_path):
+    box = [(0, 0), (2, 0), (2, 1), (0, 1), (0, 0)]
+    scenes = [hr2d.Scene() for _ in range(4)]
+    scenes[0].add(box, emission=.2, reflectance=.5)
+    scenes[0].add([(1, 0), (1, 1)], transmittance=.5, reflectance=.2, sides="both",
+                  back={"reflectance": .1, "emission": .3}, name="opal")
+    scenes[1].add(box, temperature=400, emissivity=.7)
+    scenes[1].add([(1, 0), (1, 1)], transmittance=.3, temperature=300, emissivity=.6, sides="both")
+    scenes[2].add(box[:3], temperature=900, emissivity=.7)
+    scenes[2].add(box[2:], temperature=400, emissivity=.7)
+    scenes[2].add([(1, 0), (1, 1)], shield=True, emissivity=.2, sides="both",
+                  back={"emissivity": .4})
+    scenes[3].add(box, temperature=400, emissivity=.7)
+    scenes[3].set_medium(.4, temperature=1200)
+    for scene in scenes:
+        scene.write(tmp_path / "copy.geojson")
+        same = hr2d.read(tmp_path / "copy.geojson")
+        assert same.names == scene.names and (same.other_side == scene.other_side).all()
+        B = scene.solve(error=1e-6).B
+        assert same.solve(error=1e-6).B == pytest.approx(B, rel=1e-12)
+
+
 @makers
 def test_scenes_are_pickled_and_copied(make):
     scene = make()

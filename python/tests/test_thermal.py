@@ -95,3 +95,36 @@ def test_a_pane_passes_light_on():
     assert pane.heat[3:6].sum() < opaque.heat[3:6].sum() - 100
     with pytest.raises(hr2d.SceneError, match="above 1"):
         make_rooms(temperature=300, emissivity=.8, transmittance=.3)
+
+
+@pytest.mark.parametrize("section, wall", [("long", .3622774630782), ("flat", None)])
+def test_gas_in_a_grey_square(section, wall):
+    """B − H of the walls of a cold square with ρ = .5 around gas with E_g = 1 and κ = 1."""
+    scene = hr2d.Scene()
+    scene.add([(0, 0), (1, 0), (1, 1), (0, 1), (0, 0)], reflectance=.5)
+    scene.set_medium(1, emission=1, section=section)
+    s = scene.solve(error=1e-10)
+    assert scene.absorption == [1] and s.gas.emission == [1]
+    if wall:
+        assert (s.H - s.B)[:, 0] == pytest.approx(wall, rel=1e-9)
+    assert s.gas.heat == pytest.approx((s.H - s.B).sum(), rel=1e-9)
+
+
+def test_adiabatic_gas_finds_its_temperature():
+    """Between walls of 1 and 0, two white: its value is published with 13 digits."""
+    scene = hr2d.Scene()
+    scene.add([(0, 0), (1, 0)], emission=1)
+    scene.add([(1, 0), (1, 1)], reflectance=1)
+    scene.add([(1, 1), (0, 1)])
+    scene.add([(0, 1), (0, 0)], reflectance=1)
+    scene.set_medium(1, flux=0)
+    s = scene.solve(error=1e-9)
+    assert s.B[0] - s.H[0] == pytest.approx(.5356749890498, rel=1e-8)
+    assert s.gas.emission == pytest.approx(.5, rel=1e-9)
+    assert s.gas.heat == pytest.approx(0, abs=1e-12)
+
+
+def test_without_gas_there_is_none():
+    scene = hr2d.Scene()
+    scene.add([(0, 0), (1, 0)], emission=1)
+    assert scene.solve().gas is None and (scene.absorption == 0).all()

@@ -77,7 +77,7 @@ static void mix_solution(uint64_t *digest, const hr2d_solution *solution) {
 }
 
 /* Two rooms with an opening between them and furniture, under a sky, in two bands: every effect
-   is on. */
+   is on but that of a gas, which does not go with some of the calls. */
 static const double wall[][4] = {
     {0, 0, 2, 0},      {2, 0, 2, 1},     {2, 1, 1.1, 1},     {0.8, 1, 0, 1},
     {0, 1, 0, 0},      {1, 0, 1, 0.3},   {1, 0.7, 1, 1},     {.4, .3, .6, .35},
@@ -104,8 +104,8 @@ static void fill(hr2d_scene *scene) {
   ck_assert_int_eq(hr2d_scene_set_background(scene, sky, BANDS), HR2D_OK);
   test_commit(scene);
   for (int e = 0; e < HR2D_EFFECT_COUNT; e++)
-    ck_assert_msg(hr2d_scene_effect(scene, (hr2d_effect)e, NULL), "%s",
-                  hr2d_effect_name((hr2d_effect)e));
+    ck_assert_msg(hr2d_scene_effect(scene, (hr2d_effect)e, NULL) != (e == HR2D_EFFECT_MEDIUM),
+                  "%s", hr2d_effect_name((hr2d_effect)e));
 }
 
 /* Three link sets on one hierarchy, of order 1 or more, none of them solved. */
