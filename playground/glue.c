@@ -94,6 +94,12 @@ static const char *find_missing(const hr2d_scene *scene) {
     return "the scene has a period, which this page does not compute: the program hr2d does";
   if (hr2d_scene_mirrors(scene) > 0)
     return "the scene has mirrors, which this page does not compute: the program hr2d does";
+  if (hr2d_scene_gases(scene) > 0)
+    return "the scene has gas, which this page does not compute: the program hr2d does";
+  for (size_t k = 0; k < hr2d_scene_patches(scene) && hr2d_scene_bands(scene) > 1; k++)
+    if (hr2d_scene_heat(scene, k, NULL) == HR2D_HEAT_SHIELD)
+      return "the scene has shields in several bands, which this page does not compute: the "
+             "program hr2d does";
   return NULL;
 }
 

@@ -506,11 +506,21 @@ def what_the_page_does_not_compute_is_refused(page):
         '{"type":"Feature","properties":{"sides":"mirror"},"geometry":'
         '{"type":"LineString","coordinates":[[0,0],[0,3]]}}'
     )
+    hot = (
+        '{"type":"Feature","properties":{"temperature":900,"emissivity":0.8},"geometry":'
+        '{"type":"LineString","coordinates":[[0,0],[2,0]]}}'
+    )
+    shield = (
+        '{"type":"Feature","properties":{"shield":true,"emissivity":0.2,"sides":"both"},"geometry":'
+        '{"type":"LineString","coordinates":[[0,1],[2,1]]}}'
+    )
     scenes = {
         "sun": ('{"sun":{"bearing":-40,"irradiance":800}}', floor),
         "sky": ('{"sky":[[-90,0,1]]}', floor),
         "period": ('{"period":[5,0]}', floor),
         "mirror": ("{}", floor + "," + mirror),
+        "gas": ('{"medium":0.5}', floor),
+        "shield": ('{"wavelengths":4}', hot + "," + shield),
     }
     page.example("corner.geojson")
     before = page.values()
