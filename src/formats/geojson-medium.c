@@ -39,6 +39,9 @@ static hr2d_status read_given(hr2di_geojson *reader, const json_t *medium, const
 
 /* Numbers become those of an own array, as the reader has one for each name. */
 static hr2d_status read_members(hr2di_geojson *reader, const json_t *medium, hr2d_gas *gas) {
+  if (!hr2di_geojson_member(medium, "absorption"))
+    return hr2di_message_fail(reader->message, HR2D_ESYNTAX,
+                              "hr2d: medium: there is no absorption; 0 is no gas");
   hr2d_status status = hr2di_geojson_values(reader, "hr2d: medium", "absorption",
                                             hr2di_geojson_member(medium, "absorption"), DBL_MAX,
                                             &reader->reflectance, &gas->absorption_bands);

@@ -297,7 +297,8 @@ VALUES = [None, True, 0, 1, -1, 0.5, 300, "both", "mirror", "Feature", "LineStri
           {"type": "LineString", "coordinates": [[7, 7], [8, 8]]}]
 WORDS = ["emission", "reflectance", "temperature", "flux", "emissivity", "sides", "faces", "name", "hr2d", "sun",
          "sky", "period", "medium", "background", "background_temperature", "wavelengths", "bearing", "direction",
-         "irradiance", "geometry", "properties", "type", "coordinates", "geometries", "features", "other"]
+         "irradiance", "geometry", "properties", "type", "coordinates", "geometries", "features", "other",
+         "transmittance", "shield", "back", "absorption", "section"]
 
 
 def harm(document, source):

@@ -79,6 +79,8 @@ static const struct malformed {
      "\"mirror\""},
     {"medium-array.geojson", HR2D_ESYNTAX,
      "hr2d: medium: must be a number or an object, not an array"},
+    {"medium-absent.geojson", HR2D_ESYNTAX,
+     "hr2d: medium: there is no absorption; 0 is no gas"},
     {"medium-both.geojson", HR2D_ESYNTAX,
      "hr2d: medium: both a temperature and a flux are given"},
     {"medium-section.geojson", HR2D_ESYNTAX,
