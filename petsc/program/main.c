@@ -20,6 +20,7 @@ static const char help[] =
     "  --target-error E, --time-budget S, --norm NAME, --importance PATCH, --floor F\n"
     "                    the best elements for an error, with its account\n"
     "  --enclose GAP     averages from below and above, GAP apart at most, by rank 0 alone\n"
+    "  --enclosure       one radiosity for each patch, as enclosure codes have\n"
     "  --order P         coefficients of each element (1), with --eps\n"
     "  --oracle NAME     size (default), size2, bf, l1, l1-grid or bounds\n"
     "  --eps E           accept links whose estimated error is <= E (0.1)\n"
@@ -63,7 +64,6 @@ int job_complain(const job *j, PetscErrorCode code) {
 
 static int check_options(const options *o) {
   if (o->command != SOLVE) return complain_usage("the only command is solve");
-  if (o->enclosure) return complain_usage("--enclosure is for one process: hr2d solve");
   const int status = draw_check(o->draw ? o->draw : o->tiles ? o->tiles : o->watch);
   return status ? status : options_check_outputs(o);
 }

@@ -44,8 +44,11 @@ static void print(const result *r) {
   scene_print(o, 9, r->j->cuts);
   print_patches(r);
   puts("");
-  printf("method    oracle %s, variant %s, epsilon %g\n", o->oracle->name, o->policy->name,
-         o->epsilon);
+  if (o->enclosure)
+    puts("method    enclosure: one radiosity for each patch");
+  else
+    printf("method    oracle %s, variant %s, epsilon %g\n", o->oracle->name, o->policy->name,
+           o->epsilon);
   if (r->j->resumed > 0) printf("          from epsilon %g in %s\n", r->j->resumed, o->state);
   printf("elements  N = %llu, of which %llu leaves, on levels 0 to %u\n",
          (unsigned long long)n->elements, (unsigned long long)n->leaves, n->levels);
@@ -137,9 +140,9 @@ static int write_json(const result *r, const char *path) {
   json_put(&root, "limited_links", json_count(n->limited_links));
   json_put(&root, "levels", json_count(n->levels));
   json_put(&root, "order", json_count(1));
-  json_put(&root, "epsilon", json_number(o->epsilon));
-  json_put(&root, "oracle", json_text(o->oracle->name));
-  json_put(&root, "variant", json_text(o->policy->name));
+  json_put(&root, "epsilon", o->enclosure ? json_null() : json_number(o->epsilon));
+  json_put(&root, "oracle", json_text(o->enclosure ? "enclosure" : o->oracle->name));
+  json_put(&root, "variant", o->enclosure ? json_null() : json_text(o->policy->name));
   json_put(&root, "effects", json_effects(r->j->scene));
   json_put(&root, "work", json_work(r));
   json_put(&root, "ranks", json_ranks(r));

@@ -169,6 +169,17 @@ ranks 2 "$program" solve "$room" --eps 0.2 --enclose 0.1 2>/dev/null | grep '^en
 check "enclosures do not depend on ranks: $(cat "$work/named")" eval \
   '[ -s "$work/wanted" ] && cmp -s "$work/wanted" "$work/named"'
 
+# ---- one radiosity for each patch, likewise
+patches_of() { # the first table
+  sed -n '/^patch /,/^$/p' | awk '{ $1 = $1 } 1'
+}
+$HR2D_PROGRAM solve "$room" --enclosure --no-error 2>/dev/null | patches_of >"$work/wanted" || true
+ranks 3 "$program" solve "$room" --enclosure >"$work/enclosure" 2>/dev/null || true
+patches_of <"$work/enclosure" >"$work/named"
+check "one radiosity for each patch does not depend on ranks" eval \
+  '[ -s "$work/wanted" ] && cmp -s "$work/wanted" "$work/named"'
+check "and is the method" grep -q '^method    enclosure: one radiosity for each patch$' "$work/enclosure"
+
 # ---- no option of hr2d solve is missing
 options_of() { # options_of PROGRAM: the names in its help
   "$1" solve --help | grep -oE -e '--[a-z][a-z-]*' | sort -u
