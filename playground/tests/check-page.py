@@ -20,6 +20,7 @@ from webdriver import Browser
 PAGE, HR2D, SCENES = sys.argv[1:4]
 PICTURES = sys.argv[4] if len(sys.argv) > 4 else None
 ERROR = "1e-4"
+WITH_GAS = {"furnace-gas.geojson"}  # which the page refuses
 SLOW = {"occluders-200.geojson": "1e-2"}  # examples that take a minute at ERROR
 # Relative difference of digits.  The expansions of clusters, from 256 patches on, stand at
 # nodes that come from cos(), whose last bit is not the same in all C libraries.
@@ -195,7 +196,8 @@ def loads_without_errors_and_from_its_own_server_only(page):
 @test
 def every_example_has_the_digits_of_the_program(page):
     names = json.load(open(os.path.join(PAGE, "scenes", "list.json"), encoding="utf-8"))
-    assert sorted(names) == sorted(n for n in os.listdir(SCENES) if not n.endswith(".md"))
+    others = [n for n in os.listdir(SCENES) if not n.endswith(".md") and n not in WITH_GAS]
+    assert sorted(names) == sorted(others)
     for name in names:
         error = SLOW.get(name, ERROR)
         page.example(name, error)
