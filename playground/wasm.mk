@@ -50,7 +50,7 @@ $(OUT)/%: $(PAGE)/%
 	@mkdir -p $(@D)
 	cp $< $@
 
-$(OUT)/scenes/list.json: $(SCENES)
+$(OUT)/scenes/list.json: $(SCENES) $(SRCDIR)/playground/wasm.mk
 	@mkdir -p $(@D)
 	cp $(SCENES) $(@D)
 	(printf '['; printf '"%s"\n' $(notdir $(SCENES)) | paste -sd , -; printf ']\n') >$@
