@@ -8,7 +8,6 @@
 #include <fcntl.h>
 #include <signal.h>
 #include <spawn.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -99,49 +98,54 @@ static int open_pipe(int ends[2]) {
   return -1;
 }
 
-/* Copies until the pipe ends or the picture cannot be kept.  Returns 1 if the pipe was read
-   to its end and was not empty. */
-static int copy(int from, FILE *picture) {
+/* Writes the first block of a picture with its provenance, and others as they are.  Returns 0
+   or the exit status; errors of the stream stay in it. */
+static int put(FILE *picture, suffix format, const char *block, size_t size, int first) {
+  if (first) return metadata_write(picture, format, block, size);
+  fwrite(block, 1, size, picture);
+  return EXIT_DONE;
+}
+
+/* Copies whole blocks until the pipe ends or the picture cannot be written.  *whole: the pipe
+   was read to its end and was not empty.  Returns 0 or the exit status after an error message.
+ */
+static int copy(int from, suffix format, FILE *picture, int *whole) {
   char block[16384];
-  size_t total = 0;
+  size_t kept = 0, total = 0;
+  int status = EXIT_DONE;
+  *whole = 0;
   for (;;) {
-    const ssize_t size = read(from, block, sizeof block);
+    const ssize_t size = read(from, block + kept, sizeof block - kept);
     if (size < 0 && errno == EINTR) continue;
-    if (size <= 0) return size == 0 && total > 0;
-    if (fwrite(block, 1, (size_t)size, picture) != (size_t)size) return 0;
+    if (size < 0) return status;
+    kept += (size_t)size;
     total += (size_t)size;
+    if (size > 0 && kept < sizeof block) continue;
+    if (kept > 0) status = put(picture, format, block, kept, total == kept);
+    *whole = !status && size == 0 && total > 0 && !ferror(picture);
+    if (status || size == 0 || ferror(picture)) return status;
+    kept = 0;
   }
 }
 
-/* The picture is kept in memory. */
 static int run_gnuplot(const char *path, FILE *script, FILE *picture, FILE *complaints) {
   pid_t child = 0;
-  int status = 0, ends[2];
+  int status = 0, drawn = 0, failed = 0, ends[2];
   rewind(script);
   if (open_pipe(ends)) return complain(path, "cannot run gnuplot: %s", strerror(errno));
   const int error = start(&child, fileno(script), ends[1], fileno(complaints));
   close(ends[1]);
-  const int drawn = !error && copy(ends[0], picture);
+  if (!error) failed = copy(ends[0], suffix_of(path), picture, &drawn);
   close(ends[0]);
   if (error == ENOENT) return complain(path, "cannot be plotted: gnuplot is not installed");
   if (error) return complain(path, "cannot run gnuplot: %s", strerror(error));
   while (waitpid(child, &status, 0) < 0)
     if (errno != EINTR) return complain(path, "cannot wait for gnuplot: %s", strerror(errno));
-  if (ferror(picture)) return complain_memory();
+  if (failed) return failed;
+  if (ferror(picture)) return EXIT_DONE; /* output_close() prints the reason */
   if (WIFEXITED(status) && WEXITSTATUS(status) == 127)
     return complain(path, "cannot be plotted: gnuplot is not installed");
   return status || !drawn ? fail_gnuplot(path, complaints) : EXIT_DONE;
-}
-
-static int plot(const char *path, FILE *script, FILE *stream, FILE *complaints) {
-  char *bytes = NULL;
-  size_t size = 0;
-  FILE *picture = open_memstream(&bytes, &size);
-  int status = picture ? run_gnuplot(path, script, picture, complaints) : complain_memory();
-  if (picture && fclose(picture) && !status) status = complain_memory();
-  if (!status) status = metadata_write(stream, suffix_of(path), bytes, size);
-  free(bytes);
-  return status;
 }
 
 int gnuplot_draw(const char *path, void (*write_script)(FILE *script, const void *ctx),
@@ -155,7 +159,7 @@ int gnuplot_draw(const char *path, void (*write_script)(FILE *script, const void
     if (fflush(script) || ferror(script))
       status = complain(path, "cannot write the script for gnuplot");
     else
-      status = plot(path, script, out.stream, complaints);
+      status = run_gnuplot(path, script, out.stream, complaints);
   } else
     status = complain(path, "cannot make a temporary file: %s", strerror(errno));
   if (script) fclose(script);

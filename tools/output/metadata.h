@@ -8,9 +8,9 @@
 
 #include "output/suffix.h"
 
-/* Writes a picture that is in memory, with the provenance in it: a text chunk of PNG, the
-   element metadata of SVG.  Others are written as they are.  Returns 0 or EXIT_FAILED after an
-   error message; errors of the stream stay in it. */
+/* Writes a picture, or its beginning, that is in memory, with the provenance in it: a text
+   chunk of PNG, the element metadata of SVG.  Others are written as they are.  Returns 0 or
+   EXIT_FAILED after an error message; errors of the stream stay in it. */
 int metadata_write(FILE *stream, suffix format, const char *bytes, size_t size);
 
 /* Writes text as XML has it. */
