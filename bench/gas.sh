@@ -14,7 +14,7 @@ trap 'rm -rf "$work"' EXIT
 
 # least SCENE: the least time of five solves.
 least() {
-  for run in 1 2 3 4 5; do
+  for _ in 1 2 3 4 5; do
     "$hr2d" solve "$1" --target-error 1e-6 --quiet --json - | sed -n 's/.*"total": \([0-9.e-]*\).*/\1/p'
   done | sort -g | head -n 1
 }
