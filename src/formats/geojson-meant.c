@@ -261,24 +261,48 @@ static void note_root_member(hr2di_geojson *reader, const json_t *root, const ch
                     "it belongs into the \"properties\" of each feature");
 }
 
+/* An object of "hr2d", whose members are all known, and what to say of others. */
+typedef struct known_object {
+  const char *place, *const *names;
+  size_t count;
+  const char *advice;
+} known_object;
+
+static void note_unknown(hr2di_geojson *reader, const json_t *object, const char *key,
+                         const known_object *k) {
+  if (!note_spelling(reader, object, k->place, key,
+                     find(k->names, k->count, in_small_letters(key).text)))
+    hr2di_notes_add(&reader->notes, HR2D_WARNING_IGNORED, key, k->place, k->advice);
+}
+
 static void note_scene_member(hr2di_geojson *reader, const json_t *members, const char *key) {
-  const small s = in_small_letters(key);
-  const meant *m = find_meant(s.text);
+  static const known_object known = {
+      "hr2d", of_scene, COUNT(of_scene),
+      "members of \"hr2d\" are \"background\", \"background_temperature\", "
+      "\"medium\", \"period\", \"sky\", \"sun\" and \"wavelengths\""};
+  const meant *m = find_meant(in_small_letters(key).text);
   if (m && !*m->instead)
     hr2di_notes_add(&reader->notes, HR2D_WARNING_IGNORED, key, "hr2d", m->advice);
-  else if (!note_spelling(reader, members, "hr2d", key,
-                          find(of_scene, COUNT(of_scene), s.text)))
-    hr2di_notes_add(&reader->notes, HR2D_WARNING_IGNORED, key, "hr2d",
-                    "members of \"hr2d\" are \"background\", \"background_temperature\", "
-                    "\"medium\", \"period\", \"sky\", \"sun\" and \"wavelengths\"");
+  else
+    note_unknown(reader, members, key, &known);
 }
 
 static void note_sun_member(hr2di_geojson *reader, const json_t *sun, const char *key) {
-  static const char *const of_sun[] = {"bearing", "direction", "irradiance"};
-  (void)sun;
-  if (!find(of_sun, COUNT(of_sun), key))
-    hr2di_notes_add(&reader->notes, HR2D_WARNING_IGNORED, key, "hr2d: sun",
-                    "members of \"sun\" are \"bearing\" or \"direction\", and \"irradiance\"");
+  static const char *const names[] = {"bearing", "direction", "irradiance"};
+  static const known_object known = {
+      "hr2d: sun", names, COUNT(names),
+      "members of \"sun\" are \"bearing\" or \"direction\", and \"irradiance\""};
+  note_unknown(reader, sun, key, &known);
+}
+
+static void note_medium_member(hr2di_geojson *reader, const json_t *medium, const char *key) {
+  static const char *const names[] = {"absorption", "emission", "flux", "section",
+                                      "temperature"};
+  static const known_object known = {
+      "hr2d: medium", names, COUNT(names),
+      "members of \"medium\" are \"absorption\", \"emission\", \"flux\", \"section\" and "
+      "\"temperature\""};
+  note_unknown(reader, medium, key, &known);
 }
 
 /* RFC 7946 knows no "crs"; GeoJSON of 2008 does, and some tools write it. */
@@ -297,7 +321,9 @@ hr2d_status hr2di_geojson_note_root(hr2di_geojson *reader, const json_t *root) {
   hr2d_status status = each(reader, root, note_root_member);
   const json_t *scene = hr2di_geojson_member(root, "hr2d");
   if (!status) status = each(reader, scene, note_scene_member);
-  return status ? status : each(reader, hr2di_geojson_member(scene, "sun"), note_sun_member);
+  if (!status) status = each(reader, hr2di_geojson_member(scene, "sun"), note_sun_member);
+  return status ? status
+                : each(reader, hr2di_geojson_member(scene, "medium"), note_medium_member);
 }
 
 hr2d_status hr2di_geojson_note_feature(hr2di_geojson *reader, const json_t *feature) {
