@@ -67,6 +67,11 @@ class Call:
         error.args = (f"{os.fsdecode(place)}: {error}",) if place else error.args
         raise error
 
+    def check_made(self, status: int, made: Any, message: Callable[[], Any]) -> None:
+        """As check(), but an accuracy that was not reached is no error if there is a result."""
+        if status != lib.HR2D_EACCURACY or not made or self.error:
+            self.check(status, message)
+
 
 def keep_exception(kind: Any, error: BaseException, trace: Any) -> None:
     """cffi's onerror: an exception of a callback waits for the end of the call."""

@@ -33,8 +33,7 @@ class Enclosure:
             status = lib.hr2d_enclose(scene._raw, options, pointer, account)
             if pointer[0]:
                 self._raw = owned(pointer[0], lib.hr2d_enclosure_destroy, scene._raw)
-            if status != lib.HR2D_EACCURACY or not pointer[0] or call.error:
-                call.check(status, lambda: account.reason)
+            call.check_made(status, pointer[0], lambda: account.reason)
         self.gap: float = account.gap
         """The largest distance of ends, relative to the largest lower end of its band."""
         self.links: int = account.links

@@ -54,8 +54,7 @@ class Operator:
             status = lib.hr2d_operator_create(scene._raw, raw, pointer, account)
             if pointer[0]:
                 self._raw = owned(pointer[0], lib.hr2d_operator_destroy, scene._raw)
-            if status != lib.HR2D_EACCURACY or not pointer[0] or call.error:
-                call.check(status, lambda: account.reason)
+            call.check_made(status, pointer[0], lambda: account.reason)
         self.account = Account._of(account, status == lib.HR2D_OK)
         """The errors for the light of the scene."""
         if status:
@@ -136,8 +135,7 @@ class Operator:
                                              pointer, told)
             if pointer[0]:
                 raw = owned(pointer[0], lib.hr2d_solution_destroy, self.scene._raw)
-            if status != lib.HR2D_EACCURACY or not pointer[0] or call.error:
-                call.check(status, lambda: lib.hr2d_operator_message(self._raw))
+            call.check_made(status, pointer[0], lambda: lib.hr2d_operator_message(self._raw))
         found = Account._of(told, status == lib.HR2D_OK)
         if status:
             warnings.warn(found.reason, AccuracyWarning, stacklevel=2)

@@ -132,6 +132,14 @@ class Field(NamedTuple):
             "place": ffi.cast("unsigned char *", ffi.from_buffer(self.place))})
 
 
+def _normals(normals: Any, shape: Tuple[int, ...]) -> Array:
+    """The normals of planes at points of a shape: x and y of each, or none."""
+    if normals is None:
+        return np.empty((0, 2))
+    x, y = (np.broadcast_to(np.asarray(n, dtype=np.float64), shape) for n in normals)
+    return np.stack([x.ravel(), y.ravel()], axis=1)
+
+
 def _nodes(low: float, high: float, count: int) -> Array:
     """Where the library has them, bit for bit."""
     if count < 2:
@@ -153,6 +161,8 @@ class Grid(NamedTuple):
     place: Array
     cut_off: Array
     error: Array
+    irradiance: Array
+    irradiance_error: Array
     interpolated: int
     """How many nodes are."""
 
@@ -164,7 +174,9 @@ class Grid(NamedTuple):
         return xarray.Dataset(
             {"mean": (dims, self.mean), "flux": ((*dims, "axis"), self.flux),
              "sky": (dims[:2], self.sky), "place": (dims[:2], self.place),
-             "cut_off": (dims[:2], self.cut_off), "error": (dims, self.error)},
+             "cut_off": (dims[:2], self.cut_off), "error": (dims, self.error),
+             "irradiance": (dims, self.irradiance),
+             "irradiance_error": (dims, self.irradiance_error)},
             coords={"x": self.x, "y": self.y, "axis": ["x", "y"]})
 
 
@@ -429,10 +441,7 @@ class Solution:
         x, y = np.broadcast_arrays(*(np.asarray(c, dtype=np.float64) for c in points))
         at = np.stack([x.ravel(), y.ravel()], axis=1)
         f = Field._empty(x.shape, self.scene.bands)
-        normal = np.empty((0, 2))
-        if normals is not None:
-            nx, ny = (np.broadcast_to(np.asarray(n, dtype=np.float64), x.shape) for n in normals)
-            normal = np.stack([nx.ravel(), ny.ravel()], axis=1)
+        normal = _normals(normals, x.shape)
         with Call(progress) as call:
             call.check(lib.hr2d_field_at(self._raw, ffi.cast("hr2d_point *", doubles(at)),
                                          len(at), self._field_options(errors, threads, normal),
@@ -440,13 +449,13 @@ class Solution:
         return f
 
     def field_on_grid(self, box: Any = None, shape: Tuple[int, int] = (64, 64), *,
-                      tolerance: float = 0, errors: bool = False, threads: Any = 1,
-                      progress: Optional[ProgressFunction] = None) -> Grid:
+                      tolerance: float = 0, normals: Any = None, errors: bool = False,
+                      threads: Any = 1, progress: Optional[ProgressFunction] = None) -> Grid:
         """The light at the nodes of a grid of (rows, columns) in a box (x0, y0, x1, y1).
 
         Without a box it is around all patches.  With a `tolerance`, a part of the range of the
         mean in [0, 1], nodes are interpolated where that adds no larger error; 0: every node is
-        as field() finds it.  `errors` as for field().
+        as field() finds it.  `errors` as for field(), and `normals`, without a tolerance.
 
         >>> grid = square().solve().field_on_grid(shape=(3, 5), tolerance=.01)
         >>> grid.mean.shape, grid.x
@@ -464,13 +473,14 @@ class Solution:
             "tolerance": tolerance})
         counts = ffi.new("hr2d_field_counts *")
         f = Field._empty((rows, columns), self.scene.bands)
+        normal = _normals(normals, (rows, columns))
         with Call(progress) as call:
-            call.check(lib.hr2d_field_on_grid(self._raw, grid, self._field_options(errors, threads),
-                                              f._wanted(errors), counts))
-        return Grid(x, y, *f[:6], counts.interpolated)
+            call.check(lib.hr2d_field_on_grid(
+                self._raw, grid, self._field_options(errors, threads, normal),
+                f._wanted(errors, len(normal) > 0), counts))
+        return Grid(x, y, *f, counts.interpolated)
 
-    def _field_options(self, errors: bool, threads: Any,
-                       normal: Array = np.empty((0, 2))) -> Any:
+    def _field_options(self, errors: bool, threads: Any, normal: Array) -> Any:
         return ffi.new("hr2d_field_options *", {
             "struct_size": ffi.sizeof("hr2d_field_options"), "threads": thread_count(threads),
             "account": self._point_account if errors else ffi.NULL,

@@ -87,8 +87,7 @@ def to_target(scene: Any, target: Dict[str, Any], limits: Dict[str, int], points
             solution = Solution(
                 scene, owned(pointer[0], lib.hr2d_solution_destroy, scene._raw),
                 Account._of(account, reached), (raw, account, keep))
-        if status != lib.HR2D_EACCURACY or not pointer[0] or call.error:
-            call.check(status, lambda: account.reason)
+        call.check_made(status, pointer[0], lambda: account.reason)
     if not reached:
         warnings.warn(solution.account.reason, AccuracyWarning, stacklevel=3)
     return solution

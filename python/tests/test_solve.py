@@ -106,6 +106,20 @@ def test_planes_over_a_lamp():
         s.field((.5, h), normals=(0, 0))
 
 
+def test_planes_on_a_grid_are_those_at_its_points():
+    scene = hr2d.Scene()
+    scene.add([(0, 0), (1, 0)], emission=1)
+    s, tilt = scene.solve(), np.linspace(-1, 1, 12).reshape(3, 4)
+    normals = np.sin(tilt), -np.cos(tilt)
+    grid = s.field_on_grid((0, 1, 1, 2), (3, 4), normals=normals, errors=True)
+    at = s.field(np.meshgrid(grid.x, grid.y), normals=normals, errors=True)
+    assert (grid.irradiance == at.irradiance).all()
+    assert (grid.irradiance_error == at.irradiance_error).all() and grid.irradiance.max() > .2
+    assert np.isnan(s.field_on_grid((0, 1, 1, 2), (3, 4)).irradiance).all()
+    with pytest.raises(ValueError):
+        s.field_on_grid((0, 1, 1, 2), (3, 4), tolerance=.1, normals=(0, -1))
+
+
 @pytest.mark.parametrize("asked", [{}, {"points": True}, {"epsilon": .1}])
 def test_errors_of_a_field_are_measured_whatever_was_asked_for(plates, asked):
     s, at = plates.solve(**asked), [[.1, .5], [.5, .9]]
