@@ -89,6 +89,7 @@ libhr2d_core_la_SOURCES = \
 	src/scene/need-plane.c \
 	src/scene/one-cell.c \
 	src/scene/panes.c src/scene/panes.h \
+	src/scene/patch-light.c src/scene/patch-light.h \
 	src/scene/patch-runs.c src/scene/patch-runs.h \
 	src/scene/period-ends.c \
 	src/scene/period-weights.c \

@@ -20,6 +20,7 @@
 #include "geometry/crossings.h"
 #include "geometry/vector.h"
 #include "repair/snap-impl.h"
+#include "scene/patch-light.h"
 
 #define NONE UINT32_MAX
 

@@ -12,6 +12,7 @@
 #include "geometry/cut-points.h"
 #include "geometry/orient-sign.h"
 #include "geometry/vector.h"
+#include "scene/patch-light.h"
 #include "scene/scene-impl.h"
 
 /* Rounded points bend the pieces, so that a piece may go through others by a rounding more than

@@ -6,6 +6,7 @@
 #include "base/alloc.h"
 #include "base/black-body.h"
 #include "scene/emissivity.h"
+#include "scene/patch-light.h"
 #include "scene/relit-scene.h"
 
 int hr2di_scene_is_unsettled(const hr2d_scene *scene) {
@@ -21,7 +22,7 @@ const hr2d_scene *hr2di_scene_origin(const hr2d_scene *scene) {
 
 /* The numbers of a light with a value of each kind for each band. */
 static size_t size_of(const hr2d_scene *scene) {
-  return (sizeof(hr2di_light) + sizeof(double) - 1) / sizeof(double) + 3 * scene->bands;
+  return HR2DI_LIGHT_HEAD + 3 * scene->bands;
 }
 
 /* Such a light for patch k. */

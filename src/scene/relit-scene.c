@@ -4,19 +4,18 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "scene/patch-light.h"
 
 /* The numbers of a light with E and ρ of each of `bands`, and thermal properties as they are.
  */
 static size_t size_of(const hr2di_light *from, size_t bands) {
-  const size_t head = (sizeof(hr2di_light) + sizeof(double) - 1) / sizeof(double);
   const size_t tables = from->kelvins ? from->kelvins : 1;
-  return head + 2 * bands + from->emissivity_bands * tables + from->kelvins;
+  return HR2DI_LIGHT_HEAD + 2 * bands + from->emissivity_bands * tables + from->kelvins;
 }
 
 /* Such a light; E and ρ are not set.  Of several lights in one scene none has a temperature. */
 static void make_light(hr2di_light *light, const hr2di_light *from, size_t bands, int several) {
-  const size_t head = (sizeof(hr2di_light) + sizeof(double) - 1) / sizeof(double);
-  const size_t thermal = size_of(from, bands) - head - 2 * bands;
+  const size_t thermal = size_of(from, bands) - HR2DI_LIGHT_HEAD - 2 * bands;
   *light = *from;
   light->emission_bands = light->reflectance_bands = bands;
   if (several) light->heat = HR2D_HEAT_NONE;

@@ -110,9 +110,6 @@ hr2d_status hr2di_scene_add(hr2d_scene *scene, const hr2d_patch *patch,
 /* As hr2d_scene_add(), but with the light of patch `like`. */
 hr2d_status hr2di_scene_add_alike(hr2d_scene *scene, const hr2d_patch *patch, size_t like);
 
-/* Ends one use of a light; the last frees it.  NULL is allowed. */
-void hr2di_light_release(const hr2d_allocator *alloc, hr2di_light *light);
-
 /* Removes all patches but the first `patches`. */
 void hr2di_scene_truncate(hr2d_scene *scene, size_t patches);
 

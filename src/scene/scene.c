@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "scene/patch-light.h"
 #include "scene/scene-impl.h"
 
 hr2d_status hr2d_scene_create(const hr2d_allocator *allocator, hr2d_scene **scene) {
@@ -66,10 +67,6 @@ void hr2d_scene_destroy(hr2d_scene *scene) {
   hr2di_alloc_free(&alloc, scene);
 }
 
-void hr2di_light_release(const hr2d_allocator *alloc, hr2di_light *light) {
-  if (light && --light->users == 0) hr2di_alloc_free(alloc, light);
-}
-
 void hr2di_scene_truncate(hr2d_scene *scene, size_t patches) {
   while (scene->patches > patches) {
     const hr2di_patch *last = &scene->patch[--scene->patches];
@@ -104,40 +101,6 @@ static char *make_name(hr2d_scene *scene, const char *name, size_t index, int ba
   char *made = hr2di_alloc(&scene->alloc, size, 1);
   if (made) snprintf(made, size, "%s%s", name, suffix);
   return made;
-}
-
-/* Makes a light with one user. */
-static hr2di_light *make_light(const hr2d_scene *scene, const hr2d_patch *patch,
-                               const hr2d_thermal *thermal) {
-  const size_t head = (sizeof(hr2di_light) + sizeof(double) - 1) / sizeof(double);
-  const size_t e = patch->emission_bands, r = patch->reflectance_bands,
-               t = patch->transmittance_bands;
-  const size_t kelvins = thermal ? thermal->kelvins : 0;
-  const size_t emissivities = thermal ? thermal->emissivity_bands * (kelvins ? kelvins : 1) : 0;
-  if (e > SIZE_MAX / 8 || r > SIZE_MAX / 8 || t > SIZE_MAX / 8 || emissivities > SIZE_MAX / 8 ||
-      kelvins > SIZE_MAX / 8)
-    return NULL;
-  hr2di_light *light =
-      hr2di_alloc(&scene->alloc, head + e + r + emissivities + kelvins + t, sizeof(double));
-  if (!light) return NULL;
-  *light = (hr2di_light){.users = 1,
-                         .emission_bands = e,
-                         .reflectance_bands = r,
-                         .transmittance_bands = t,
-                         .emissivity_bands = thermal ? thermal->emissivity_bands : 0,
-                         .heat = thermal ? thermal->given : HR2D_HEAT_NONE,
-                         .given = thermal ? thermal->value : 0,
-                         .kelvins = kelvins,
-                         .emissivity_of = thermal ? thermal->emissivity_of : NULL,
-                         .emissivity_ctx = thermal ? thermal->emissivity_ctx : NULL};
-  for (size_t k = 0; k < e; k++) light->value[k] = patch->emission[k];
-  for (size_t k = 0; k < r; k++) light->value[e + k] = patch->reflectance[k];
-  for (size_t k = 0; k < emissivities; k++) light->value[e + r + k] = thermal->emissivity[k];
-  for (size_t k = 0; k < kelvins; k++)
-    light->value[e + r + emissivities + k] = thermal->kelvin[k];
-  for (size_t k = 0; k < t; k++)
-    light->value[e + r + emissivities + kelvins + k] = patch->transmittance[k];
-  return light;
 }
 
 static hr2d_status add_side(hr2d_scene *scene, const hr2d_patch *patch, size_t index, int back,
@@ -274,7 +237,8 @@ hr2d_status hr2di_scene_add(hr2d_scene *scene, const hr2d_patch *patch,
   const hr2di_label label = make_label(front, patch->name);
   hr2d_status status = check_segment(scene, patch, label.text);
   if (!status) status = check_light(scene, patch, thermal, label.text);
-  if (!status) status = add_sides(scene, patch, make_light(scene, patch, thermal));
+  if (!status)
+    status = add_sides(scene, patch, hr2di_light_make(&scene->alloc, patch, thermal));
   if (!status && index) *index = front;
   return status;
 }
@@ -394,55 +358,13 @@ hr2d_status hr2d_scene_find(const hr2d_scene *scene, const char *name, size_t *p
   return HR2D_EINVAL;
 }
 
-/* The value of a band: a single value holds for every band, no value means 0. */
-static double band_value(const double *value, size_t bands, size_t band) {
-  if (bands < 2) return bands ? *value : 0;
-  return band < bands ? value[band] : NAN;
-}
-
-double hr2d_scene_emission(const hr2d_scene *scene, size_t patch, size_t band) {
-  if (!hr2di_scene_has(scene, patch) || !hr2di_scene_has_band(scene, band)) return NAN;
-  const hr2di_light *light = scene->patch[patch].light;
-  return band_value(light->value, light->emission_bands, band);
-}
-
-/* A shield in one band is a pane that absorbs nothing.  In several it waits for its
-   temperature, as patches of given flux do. */
-static double transmittance_of_shield(const hr2d_scene *scene, size_t patch) {
-  if (scene->bands > 1) return 0;
-  const double e = hr2d_scene_emissivity(scene, patch, 0),
-               other = hr2d_scene_emissivity(scene, hr2di_scene_other_side(scene, patch), 0);
-  return e / (e + other) * other;
-}
-
-double hr2d_scene_reflectance(const hr2d_scene *scene, size_t patch, size_t band) {
-  if (!hr2di_scene_has(scene, patch) || !hr2di_scene_has_band(scene, band)) return NAN;
-  const hr2di_light *light = scene->patch[patch].light;
-  if (light->heat == HR2D_HEAT_SHIELD && !light->reflectance_bands)
-    return 1 - transmittance_of_shield(scene, patch);
-  return band_value(light->value + light->emission_bands, light->reflectance_bands, band);
-}
-
-/* A scene with other light has the panes of its lender, whose bands repeat. */
-double hr2d_scene_transmittance(const hr2d_scene *scene, size_t patch, size_t band) {
-  if (!hr2di_scene_has(scene, patch) || !hr2di_scene_has_band(scene, band)) return NAN;
-  if (scene->lender)
-    return hr2d_scene_transmittance(scene->lender, patch, band % scene->lender->bands);
-  const hr2di_light *light = scene->patch[patch].light;
-  if (light->heat == HR2D_HEAT_SHIELD) return transmittance_of_shield(scene, patch);
-  const size_t tables = light->kelvins ? light->kelvins : 1;
-  return band_value(light->value + light->emission_bands + light->reflectance_bands +
-                        light->emissivity_bands * tables + light->kelvins,
-                    light->transmittance_bands, band);
-}
-
 size_t hr2d_scene_other_side(const hr2d_scene *scene, size_t patch) {
   return hr2di_scene_has(scene, patch) ? hr2di_scene_other_side(scene, patch) : HR2D_NO_ELEMENT;
 }
 
 double hr2d_scene_background(const hr2d_scene *scene, size_t band) {
   if (!hr2di_scene_has_band(scene, band)) return NAN;
-  return band_value(scene->background, scene->background_bands, band);
+  return hr2di_band_value(scene->background, scene->background_bands, band);
 }
 
 double hr2d_scene_unit(const hr2d_scene *scene) {
