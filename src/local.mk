@@ -231,6 +231,8 @@ libhr2d_core_la_SOURCES = \
 	src/field/leaves.c src/field/leaves.h \
 	src/field/light-in-gas.c src/field/light-in-gas.h \
 	src/field/light.c src/field/light.h \
+	src/field/light-source.c src/field/light-source.h \
+	src/field/light-strip.c src/field/light-strip.h \
 	src/field/locate.c src/field/locate.h \
 	src/field/past-ends.c src/field/past-ends.h \
 	src/field/visibility-polygon.c src/field/visibility-polygon.h \

@@ -15,6 +15,9 @@
 
 #include <hr2d/gas.h>
 
+/* Less than a rounding arrives at this depth. */
+#define HR2DI_GAS_DARK 44
+
 double hr2di_bickley_2(double x);
 double hr2di_bickley_3(double x);
 double hr2di_bickley_4(double x);

@@ -8,9 +8,6 @@
 
 #include "base/bickley.h"
 
-/* Nothing is seen of what arrives at DARK more than the least depth. */
-#define DARK 44
-
 /* Depths up to this lie in the first piece: x³ ln x is a rounding of T there. */
 #define SHALLOW  0.01
 #define NO_DEPTH 1e-4 /* it is one of D as well */
@@ -48,7 +45,7 @@ double hr2di_gas_points(const hr2di_integrator *w, const hr2di_trapezoid *t) {
       most = fmax(most, depth);
     }
     all = fmax(all, fmin(most - least, TOO_DARK));
-    if (least < DARK) range = fmax(range, most - least);
+    if (least < HR2DI_GAS_DARK) range = fmax(range, most - least);
   }
   return range > MOST_POINTS ? HUGE_VAL : sqrt(all);
 }
@@ -128,7 +125,7 @@ void hr2di_gas_add(hr2di_integrator *w, const hr2di_gas_lines *l, double *block)
   const double start = swap ? 1 : -1;
   for (double at = 0; at < 1;) {
     const double depth = least + at * whole;
-    const int dark = depth - least > DARK;
+    const int dark = depth - least > HR2DI_GAS_DARK;
     const double span = span_from(w, depth, least), left = (1 - at) * whole;
     const double to = dark || left <= span ? 1 : at + span / whole;
     const double end = least + to * whole;

@@ -82,18 +82,14 @@ static double form_factor(hr2d_point n, hr2d_point right, hr2d_point left) {
   return hr2di_point_dot(right, left) < -0.5 && right_sine > 0.5 ? 1 : 0;
 }
 
-static hr2d_point unit(hr2d_point v) {
-  const double length = hypot(v.x, v.y);
-  return length > 0 ? (hr2d_point){v.x / length, v.y / length} : v;
-}
-
 static void add(double to[2], double weight, double share, double factor) {
   to[0] += weight * share;
   to[1] += weight * factor;
 }
 
 static double factor_of(const observer *l, hr2d_point right, hr2d_point left) {
-  return l->has_normal ? form_factor(l->normal, unit(right), unit(left)) : 0;
+  return l->has_normal ? form_factor(l->normal, hr2di_point_unit(right), hr2di_point_unit(left))
+                       : 0;
 }
 
 static void take_far_sky(void *ctx, const hr2di_far_part *part) {
@@ -209,7 +205,7 @@ static hr2d_status make_row(visit *v, hr2di_field_worker *w, observer *l, size_t
   l->count = 0;
   l->front = 0;
   l->has_normal = v->normal != NULL;
-  if (v->normal) l->normal = unit(v->normal[point]);
+  if (v->normal) l->normal = hr2di_point_unit(v->normal[point]);
   w->view.take = take;
   w->view.ctx = l;
   const hr2d_point x = hr2di_far_home(v->scene, hr2di_field_scaled(v->scene, v->at[point]));

@@ -78,20 +78,14 @@ static hr2d_status look_twice(hr2di_field_worker *w, const plane *p, hr2d_point 
   return status;
 }
 
-static hr2d_point unit(hr2d_point v) {
-  const double larger = fmax(fabs(v.x), fabs(v.y)); /* v may be as short or long as it likes */
-  const hr2d_point u = {v.x / larger, v.y / larger};
-  const double length = hypot(u.x, u.y);
-  return (hr2d_point){u.x / length, u.y / length};
-}
-
 hr2d_status hr2di_field_irradiance(hr2di_field_worker *w, const hr2di_field_call *f,
                                    hr2d_point x, hr2d_place place, size_t k) {
   const hr2di_light_source *of = &f->source;
   if (!f->values.irradiance && !f->values.irradiance_error) return HR2D_OK;
   const plane p = {.of = of,
                    .to = &f->values,
-                   .normal = unit(f->options.normal[f->options.normals > 1 ? k : 0]),
+                   .normal =
+                       hr2di_point_unit(f->options.normal[f->options.normals > 1 ? k : 0]),
                    .first = k * of->solution->bands,
                    .dark = place == HR2D_PLACE_OUTSIDE,
                    .knows = of->patch_error || of->element_error};

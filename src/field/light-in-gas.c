@@ -1,19 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Panels shrink towards the point, as without gas, and until they are no deeper than DEEP.
-   Their sum of angles may miss a part of the angle, which is known, by roundings: that part has
-   the light of the nearest place. */
+/* Panels shrink towards the point, as without gas, and until they are no deeper than
+   HR2DI_GAS_DEEP. Their sum of angles may miss a part of the angle, which is known, by
+   roundings: that part has the light of the nearest place. */
 #include "field/light-in-gas.h"
 
 #include <math.h>
 
-#include "base/bickley.h"
 #include "geometry/bernstein-ellipse.h"
 #include "geometry/vector.h"
-
-/* No rule is shorter than that of this ellipse: so they are enough for e^−κr on panels. */
-#define DEEP        2
-#define DARK        44
-#define GAS_ELLIPSE 2.5
 
 /* −ln of the error of a rule, as a part of B. */
 #define DIGITS 37
@@ -30,16 +24,14 @@ static passages passages_over(const hr2di_light_source *of, double distance) {
 }
 
 static const hr2di_rule *choose_rule(const hr2di_light_source *of, double ellipse) {
-  const double m = fmin(fmax(ellipse, HR2DI_NEAR_ELLIPSE), GAS_ELLIPSE);
+  const double m = fmin(fmax(ellipse, HR2DI_NEAR_ELLIPSE), HR2DI_GAS_ELLIPSE);
   const double points =
       ((double)of->solution->order + DIGITS / log(m + sqrt(m * m - 1))) / 2 + 1;
-  int k = 0;
-  while (k + 1 < HR2DI_LIGHT_RULES && (double)of->rule[k].points < points) k++;
-  return &of->rule[k];
+  return hr2di_light_rule(of, points);
 }
 
 /* Adds the light of a place that takes an angle and ∫ω dω of it. */
-static void add_place(hr2di_light_sum *sum, const hr2di_gas_strip *s, double t, double angle,
+static void add_place(hr2di_light_sum *sum, const hr2di_strip *s, double t, double angle,
                       hr2d_point vector) {
   const hr2di_light_source *of = sum->of;
   const size_t bands = of->solution->bands;
@@ -58,17 +50,8 @@ static void add_place(hr2di_light_sum *sum, const hr2di_gas_strip *s, double t, 
   }
 }
 
-static int is_deep(const hr2di_light_sum *sum, const hr2di_gas_strip *s, hr2di_span panel) {
-  const double absorption = hr2di_scene_scaled_absorption(sum->of->scene);
-  const hr2d_point from = hr2di_block_along(s->from, s->along, panel.from),
-                   to = hr2di_block_along(s->from, s->along, panel.to);
-  const double length = hypot(to.x - from.x, to.y - from.y);
-  const double least = fmin(hypot(from.x, from.y), hypot(to.x, to.y)) - length;
-  return absorption * length > DEEP && absorption * least < DARK;
-}
-
 /* Adds a panel, and what it takes of the angle. */
-static void add_panel(hr2di_light_sum *sum, const hr2di_gas_strip *s, hr2di_span panel,
+static void add_panel(hr2di_light_sum *sum, const hr2di_strip *s, hr2di_span panel,
                       const hr2di_rule *rule, double *angle, hr2d_point *vector) {
   const double size = panel.to - panel.from, cross = hr2di_point_cross(s->from, s->along);
   for (size_t q = 0; q < rule->points; q++) {
@@ -84,17 +67,18 @@ static void add_panel(hr2di_light_sum *sum, const hr2di_gas_strip *s, hr2di_span
   }
 }
 
-void hr2di_light_add_in_gas(hr2di_light_sum *sum, const hr2di_gas_strip *s, double angle,
-                            hr2d_point vector) {
+void hr2di_light_add_in_gas(hr2di_light_sum *sum, const hr2di_strip *s, hr2di_span part,
+                            double angle, hr2d_point vector) {
   const hr2di_light_source *of = sum->of;
-  hr2di_panels panels = {.count = s->part.to > s->part.from};
+  const double absorption = hr2di_scene_scaled_absorption(of->scene);
+  hr2di_panels panels = {.count = part.to > part.from};
   double found = 0;
   hr2d_point by = {0, 0};
-  panels.stack[0] = s->part;
+  panels.stack[0] = part;
   while (panels.count > 0) {
     const hr2di_span panel = panels.stack[--panels.count];
     const double m = hr2di_panel_ellipse(s->from, s->along, panel);
-    if ((m < HR2DI_NEAR_ELLIPSE || is_deep(sum, s, panel)) &&
+    if ((m < HR2DI_NEAR_ELLIPSE || hr2di_panel_is_deep(s->from, s->along, panel, absorption)) &&
         hr2di_panel_halved(&panels, panel))
       continue;
     if (hr2di_watch_work(sum->watch, 8 + 2 * of->solution->order * of->solution->bands)) return;
@@ -102,6 +86,6 @@ void hr2di_light_add_in_gas(hr2di_light_sum *sum, const hr2di_gas_strip *s, doub
   }
   const double size = hr2di_point_dot(s->along, s->along);
   const double nearest = size > 0 ? -hr2di_point_dot(s->from, s->along) / size : 0;
-  add_place(sum, s, fmin(fmax(nearest, s->part.from), s->part.to), angle - found,
+  add_place(sum, s, fmin(fmax(nearest, part.from), part.to), angle - found,
             (hr2d_point){vector.x - by.x, vector.y - by.y});
 }

@@ -3,20 +3,11 @@
 #ifndef HR2D_SRC_FIELD_LIGHT_IN_GAS_H
 #define HR2D_SRC_FIELD_LIGHT_IN_GAS_H
 
-#include "field/light.h"
-#include "solution/panels.h"
+#include "field/light-strip.h"
 
-/* A part of a leaf, or of a back: the vector from the point to its start, its own, and B on it,
-   or NULL if that is 0. */
-typedef struct hr2di_gas_strip {
-  hr2d_point from, along;
-  hr2di_span part;
-  const double *coefficient;
-} hr2di_gas_strip;
-
-/* Adds what comes from there and from the gas on the way: T B + D E_g in the flux, and with Ki₂
-   for (4/π) Ki₃ in the mean.  It takes an angle, and ∫ω dω of it is `vector`. */
-void hr2di_light_add_in_gas(hr2di_light_sum *sum, const hr2di_gas_strip *s, double angle,
-                            hr2d_point vector);
+/* Adds what comes from a part of a strip and from the gas on the way: T B + D E_g in the flux,
+   and with Ki₂ for (4/π) Ki₃ in the mean.  It takes an angle, and ∫ω dω of it is `vector`. */
+void hr2di_light_add_in_gas(hr2di_light_sum *sum, const hr2di_strip *s, hr2di_span part,
+                            double angle, hr2d_point vector);
 
 #endif

@@ -29,6 +29,15 @@ static inline double hr2di_point_cross(hr2d_point u, hr2d_point v) {
   return u.x * v.y - u.y * v.x;
 }
 
+/* v with the length 1, however short or long it is; (0, 0) stays. */
+static inline hr2d_point hr2di_point_unit(hr2d_point v) {
+  const double larger = fmax(fabs(v.x), fabs(v.y));
+  if (!(larger > 0)) return v;
+  const hr2d_point u = {v.x / larger, v.y / larger};
+  const double length = sqrt(hr2di_point_dot(u, u));
+  return (hr2d_point){u.x / length, u.y / length};
+}
+
 /* The point at the fraction t of a segment, from the end that is nearer: exactly on a line
    along an axis. */
 static inline hr2d_point hr2di_point_at(hr2d_segment s, double t) {

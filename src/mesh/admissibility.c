@@ -4,6 +4,7 @@
 
 #include <math.h>
 
+#include "base/bickley.h"
 #include "geometry/bernstein-ellipse.h"
 #include "geometry/predicates.h"
 #include "oracle/built-in.h"
@@ -14,9 +15,9 @@
 #define ROUGH 6.0
 
 /* Through gas e^−κr changes on an element with children by this exponent at most: then it is as
-   smooth as on the ellipse ROUGH.  Elements as far from each other as DARK exchange nothing. */
+   smooth as on the ellipse ROUGH.  Elements as far from each other as HR2DI_GAS_DARK exchange
+   nothing. */
 #define ROUGH_DEPTH 0.5
-#define DARK        44
 
 static double depth_between(const hr2d_element *i, const hr2d_element *j, double absorption) {
   const double centres = hypot(i->centre.x - j->centre.x, i->centre.y - j->centre.y);
@@ -26,7 +27,7 @@ static double depth_between(const hr2d_element *i, const hr2d_element *j, double
 /* Whether gas lets elements be linked. */
 static int is_clear(const hr2d_element *i, const hr2d_element *j, double absorption) {
   const double rough = fmax(i->child ? i->length : 0, j->child ? j->length : 0) * absorption;
-  return rough <= ROUGH_DEPTH || depth_between(i, j, absorption) > DARK;
+  return rough <= ROUGH_DEPTH || depth_between(i, j, absorption) > HR2DI_GAS_DARK;
 }
 
 /* The ellipse that an element needs. */

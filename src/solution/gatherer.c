@@ -113,20 +113,6 @@ static void add_panel(hr2di_gatherer *g, const chord *leaf, hr2di_span panel,
   }
 }
 
-/* Panels are no deeper in gas, and their rules no shorter than those of this ellipse: so the
-   latter are enough for e^−κr.  Dark panels count for nothing. */
-#define DEEP        2
-#define DARK        44
-#define GAS_ELLIPSE 2.5
-
-static int is_deep(const hr2di_gatherer *g, const chord *leaf, hr2di_span panel) {
-  const hr2d_point from = hr2di_block_along(leaf->from, leaf->along, panel.from),
-                   to = hr2di_block_along(leaf->from, leaf->along, panel.to);
-  const double length = hypot(to.x - from.x, to.y - from.y);
-  const double least = fmin(hypot(from.x, from.y), hypot(to.x, to.y)) - length;
-  return g->absorption * length > DEEP && g->absorption * least < DARK;
-}
-
 /* Adds the light that a part of a leaf sends. */
 static void add_leaf(hr2di_gatherer *g, const chord *leaf, const double *coefficient,
                      hr2di_span part) {
@@ -141,8 +127,9 @@ static void add_leaf(hr2di_gatherer *g, const chord *leaf, const double *coeffic
     const hr2di_span panel = panels.stack[--panels.count];
     double ellipse = hr2di_panel_ellipse(leaf->from, leaf->along, panel);
     if (g->absorption > 0) {
-      if (is_deep(g, leaf, panel) && hr2di_panel_halved(&panels, panel)) continue;
-      ellipse = fmin(ellipse, GAS_ELLIPSE);
+      const int deep = hr2di_panel_is_deep(leaf->from, leaf->along, panel, g->absorption);
+      if (deep && hr2di_panel_halved(&panels, panel)) continue;
+      ellipse = fmin(ellipse, HR2DI_GAS_ELLIPSE);
     }
     if (ellipse < HR2DI_NEAR_ELLIPSE && hr2di_panel_halved(&panels, panel)) continue;
     add_panel(g, leaf, panel, rule_for(g, ellipse), coefficient);

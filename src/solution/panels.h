@@ -3,6 +3,7 @@
 #ifndef HR2D_SRC_SOLUTION_PANELS_H
 #define HR2D_SRC_SOLUTION_PANELS_H
 
+#include "base/bickley.h"
 #include "blocks/block.h"
 #include "geometry/bernstein-ellipse.h"
 
@@ -42,6 +43,22 @@ static inline double hr2di_panel_ellipse(hr2d_point from, hr2d_point along, hr2d
   const hr2d_segment around = {hr2di_block_along(from, along, panel.from),
                                hr2di_block_along(from, along, panel.to)};
   return hr2di_ellipse(around, (hr2d_point){0, 0});
+}
+
+/* In gas panels are no deeper than GAS_DEEP, and their rules no shorter than those of
+   GAS_ELLIPSE: so the latter are enough for e^−κr. */
+#define HR2DI_GAS_DEEP    2
+#define HR2DI_GAS_ELLIPSE 2.5
+
+/* Whether gas of an absorption asks to halve a panel that is seen from the origin: dark ones
+   count for nothing. */
+static inline int hr2di_panel_is_deep(hr2d_point from, hr2d_point along, hr2di_span panel,
+                                      double absorption) {
+  const hr2d_point a = hr2di_block_along(from, along, panel.from),
+                   b = hr2di_block_along(from, along, panel.to);
+  const double length = hypot(b.x - a.x, b.y - a.y);
+  const double least = fmin(hypot(a.x, a.y), hypot(b.x, b.y)) - length;
+  return absorption * length > HR2DI_GAS_DEEP && absorption * least < HR2DI_GAS_DARK;
 }
 
 #endif

@@ -46,14 +46,16 @@ static double look_once(const hr2d_solution *solution, hr2d_point at, hr2d_point
   return irradiance;
 }
 
-/* A plane over black ground from −1 to 1 with B = 1, under a background of 2 and a sun: the
-   ends of the ground are at angles from n whose sines count, and the sun has a cosine. */
+/* A plane over black ground from −1 to 1 with B = 1, under a background of 2 and a sun, whose
+   direction is of any length: the ends of the ground are at angles from n whose sines count,
+   and the sun has a cosine. */
 START_TEST(tilted_planes_over_ground) {
   hr2d_scene *scene = test_new_scene(NULL);
   test_add_patch(scene, (hr2d_segment){{-1, 0}, {1, 0}}, 1, 0, HR2D_SIDES_FRONT);
   const double sky = 2;
   ck_assert_int_eq(hr2d_scene_set_background(scene, &sky, 1), HR2D_OK);
-  const hr2d_sun sun = {.direction = {-0.6, -0.8}, .irradiance = 3};
+  const double size = ((const double[]){1, 1e-200, 1e200})[_i];
+  const hr2d_sun sun = {.direction = {-0.6 * size, -0.8 * size}, .irradiance = 3};
   ck_assert_int_eq(hr2d_scene_set_sun(scene, &sun, 1), HR2D_OK);
   test_commit(scene);
   hr2d_solution *solution = solve(scene, 1e-9, NULL);
@@ -319,8 +321,9 @@ START_TEST(calls) {
 END_TEST
 
 TEST_SUITE("irradiance of planes at points") {
-  ADD_TESTS("irradiance", tilted_planes_over_ground, planes_on_patches,
-            small_tilts_between_endless_plates, irradiances_are_within_their_errors, calls);
+  REPEAT_TESTS(3, "irradiance and sun", tilted_planes_over_ground);
+  ADD_TESTS("irradiance", planes_on_patches, small_tilts_between_endless_plates,
+            irradiances_are_within_their_errors, calls);
   REPEAT_TESTS(SYMMETRIC_KINDS - 1, "under symmetries", both_sides_are_the_flux,
                all_tilts_are_the_mean);
 }
