@@ -76,6 +76,7 @@ libhr2d_core_la_SOURCES = \
 	src/occlusion/wall-tree.c src/occlusion/wall-tree.h \
 	src/occlusion/walls.c src/occlusion/walls.h \
 	src/scene/back-to-back.c src/scene/back-to-back.h \
+	src/scene/band-groups.c src/scene/band-groups.h \
 	src/scene/checks.c \
 	src/scene/commit.c \
 	src/scene/daylight.c \
@@ -105,6 +106,7 @@ libhr2d_core_la_SOURCES = \
 	src/scene/side-parts.c src/scene/side-parts.h \
 	src/scene/sky.c src/scene/sky.h \
 	src/scene/sky-arcs.c \
+	src/scene/spectrum.c src/scene/spectrum.h \
 	src/scene/sun.c \
 	src/scene/sun-beams.c src/scene/sun-beams.h \
 	src/scene/sunlight.c src/scene/sunlight.h \
@@ -211,6 +213,7 @@ libhr2d_core_la_SOURCES = \
 	src/links/patch-defect.c src/links/patch-defect.h \
 	src/links/row-pieces.h \
 	src/links/store.c src/links/store.h \
+	src/solution/band-solution.c src/solution/band-solution.h \
 	src/solution/gatherer.c src/solution/gatherer.h \
 	src/solution/panels.h \
 	src/solution/point-gather.c \
@@ -315,6 +318,7 @@ libhr2d_core_la_SOURCES = \
 	src/estimate/estimator.c src/estimate/estimator.h \
 	src/estimate/gap-residuals.c src/estimate/gap-residuals.h \
 	src/estimate/graded-solve.c src/estimate/graded-solve.h \
+	src/estimate/group-estimate.c src/estimate/group-estimate.h \
 	src/estimate/importance.c src/estimate/importance.h \
 	src/estimate/period-residuals.c src/estimate/period-residuals.h \
 	src/estimate/points-gather.c src/estimate/points-gather.h \

@@ -27,6 +27,11 @@
  * all others. Needs a closed scene of one band. Where Q is so negative that E_g would be, or
  * nothing absorbs, solves return HR2D_ENO_SOLUTION.
  *
+ * **Bands.** κ may differ from band to band: a weighted sum of grey gases has a band for each
+ * of them, hr2d_scene_set_weights(), and one in which nothing absorbs. Bands of equal κ share
+ * their blocks, and cost as much as one; each other κ has blocks and an equation of its own on
+ * the same elements. A band with κ = 0 is as in a scene without gas.
+ *
  * **Open scenes.** A line that meets no patch stays in gas for ever, and brings E_g.
  *
  * **Points.** hr2d_solution_gather() and its companions, and hr2d_field_at() and
@@ -39,10 +44,10 @@
  * whole list of what this version does not do: the oracles `l1`, `l1-grid` and `bounds`; points
  * as the norm of a target, errors of fields, and fields with a period; view factors and
  * exchange matrices, operators, enclosures, states, shares, and predictions. So does
- * hr2d_scene_commit() if the scene has a background, a sky or a sun with light, a period of
- * which images are cut off, a κ that differs from band to band, patches of given flux in
- * several bands, or a gas of given heat in several bands; and hr2d_solve() if patches see the
- * backs of others. Far pairs of patches are not clustered.
+ * hr2d_scene_commit() if the scene has light of a background, a sky or a sun in a band that
+ * gas absorbs, a period of which images are cut off, more than 256 different κ, patches of
+ * given flux in several bands, or a gas of given heat in several bands; and hr2d_solve() if
+ * patches see the backs of others. Far pairs of patches are not clustered.
  *
  * Exchange areas of links (hr2d_link::exchange_area) are those without gas.
  * @{

@@ -180,6 +180,35 @@ HR2D_API hr2d_status hr2d_scene_set_wavelengths(hr2d_scene *scene, const double 
                                                 size_t count);
 
 /**
+ * Divides what black bodies emit into bands by weights, as a weighted sum of grey gases does
+ * (Hottel and Sarofim, Radiative Transfer, 1967): `count` weights make `count` + 1 bands. Of
+ * the emission σT⁴ of a black body at T band b has the part
+ *
+ *     a_b(T) = Σ_j weight[(b − 1) terms + j] T^j  for b ≥ 1,   a_0(T) = 1 − Σ a_b(T).
+ *
+ * Band 0 is that of the gaps between the lines of a gas: its κ is mostly 0. Tables of
+ * combustion gases have such polynomials and the κ that belong to them, hr2d_gas::absorption.
+ * Patches are as with wavelengths: of given T, with an ε for all bands or for each.
+ *
+ * @param scene   not yet committed, without patches of given temperature or flux
+ * @param weight  count × terms coefficients, that of T^j in K^−j; copied
+ * @param count   number of weights, at most #HR2D_MAX_WAVELENGTHS; 0 for one band, as before
+ * the first call. Wavelengths are forgotten, as weights are by hr2d_scene_set_wavelengths()
+ * @param terms   coefficients of each, at most #HR2D_MAX_WAVELENGTHS
+ * @retval HR2D_OK      success
+ * @retval HR2D_ENOMEM  an allocation failed
+ * @retval HR2D_EINVAL  a number of weights without values or terms
+ * @retval HR2D_ESTATE  the scene is committed, or has patches of given temperature or flux
+ * @retval HR2D_ESCENE  a coefficient is not finite, or there are too many
+ *
+ * A polynomial holds for some temperatures only: where a part of a given T is not in [0,1],
+ * hr2d_scene_add_thermal(), or for a gas hr2d_scene_commit(), returns HR2D_ESCENE. Fluxes and
+ * shields are refused with HR2D_EUNSUPPORTED, and so are states of such a scene.
+ */
+HR2D_API hr2d_status hr2d_scene_set_weights(hr2d_scene *scene, const double *weight,
+                                            size_t count, size_t terms);
+
+/**
  * The temperature or heat flux that is given of a patch.
  * @param scene,patch  a scene and the index of a patch
  * @param value        receives T or q; NaN if neither is given; may be NULL

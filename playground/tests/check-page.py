@@ -20,7 +20,7 @@ from webdriver import Browser
 PAGE, HR2D, SCENES = sys.argv[1:4]
 PICTURES = sys.argv[4] if len(sys.argv) > 4 else None
 ERROR = "1e-4"
-WITH_GAS = {"furnace-gas.geojson"}  # which the page refuses
+WITH_GAS = {"furnace-flue-gas.geojson", "furnace-gas.geojson"}  # which the page refuses
 SLOW = {"occluders-200.geojson": "1e-2"}  # examples that take a minute at ERROR
 # Relative difference of digits.  The expansions of clusters, from 256 patches on, stand at
 # nodes that come from cos(), whose last bit is not the same in all C libraries.

@@ -91,11 +91,13 @@ def _members(scene: Any) -> Dict[str, Any]:
     found: Dict[str, Any] = {}
     for text in _texts(scene):
         given = (text.get("hr2d") if isinstance(text, dict) else None) or {}
-        found.update({key: given[key] for key in ("wavelengths", "sky", "medium")
+        found.update({key: given[key] for key in ("wavelengths", "weights", "sky", "medium")
                       if given.get(key) is not None})
     for name, arguments in scene._log:
         if name == "set_wavelengths":
             found["wavelengths"] = arguments[0].tolist()
+        if name == "set_weights":
+            found["weights"] = arguments[0].tolist()
     return found
 
 

@@ -167,6 +167,25 @@ class Scene:
                        self._message)
             self._log.append(("set_wavelengths", (borders,)))
 
+    def set_weights(self, weights: Any) -> None:
+        """Divides what black bodies emit into bands by weights, as weighted sums of grey gases do.
+
+        `weights` has the polynomials in kelvin of the bands behind the first, (bands − 1, terms);
+        band 0, the gaps between the lines of the gas, has what they leave.  Before temperatures.
+
+        >>> scene = Scene()
+        >>> scene.set_weights([[.5, -1e-4], [0, 2e-4]])
+        >>> scene.add([(0, 0), (1, 0)], temperature=1000)
+        slice(0, 1, None)
+        >>> (scene.emission[0] / black_body(1000)).round(12)
+        array([0.4, 0.4, 0.2])
+        """
+        values = np.atleast_2d(np.ascontiguousarray(weights, dtype=np.float64))
+        with self._change() as call:
+            call.check(lib.hr2d_scene_set_weights(self._raw, doubles(values), *values.shape),
+                       self._message)
+            self._log.append(("set_weights", (values,)))
+
     def force(self, effect: str) -> None:
         """Turns an effect on that the scene does not call for, by its name in `effects`."""
         names = [ffi.string(lib.hr2d_effect_name(k)).decode()

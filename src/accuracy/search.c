@@ -116,8 +116,7 @@ static void note_errors(hr2di_search *s, const hr2di_error_pair *errors) {
 static void keep(hr2di_search *s, hr2di_graded *answer, const hr2di_error_pair *errors) {
   hr2di_graded_clear(&s->best);
   s->best = *answer;
-  if (!s->keeps_operator && !s->best.depth)
-    hr2di_link_blocks_trim(&s->best.links->blocks, &s->best.links->alloc);
+  if (!s->keeps_operator && !s->best.depth) hr2di_linkset_trim_blocks(s->best.links);
   *answer = (hr2di_graded){0};
   const hr2d_hierarchy_counts counts = hr2d_hierarchy_count(s->best.hierarchy);
   hr2d_account *a = &s->account;
@@ -180,7 +179,7 @@ hr2d_status hr2di_search_bound(hr2di_search *s) {
   const double start = hr2di_clock_now();
   fineness.skip_bound = fineness.a_posteriori = 0;
   const hr2d_status status = hr2di_search_agree(
-      s, hr2di_error_estimate(&s->best, &fineness, &s->target, &errors, &s->message));
+      s, hr2di_group_estimates(&s->best, &fineness, &s->target, &errors, &s->message));
   s->account.error_seconds += hr2di_clock_now() - start;
   if (!status) note_errors(s, &errors);
   return status;
@@ -210,7 +209,7 @@ hr2d_status hr2di_search_attempt(hr2di_search *s, const hr2di_resolution *finene
   add_times(&s->account, &answer);
   const double start = hr2di_clock_now();
   if (!status && !s->given.no_error) {
-    status = hr2di_error_estimate(&answer, fineness, &s->target, &errors, &s->message);
+    status = hr2di_group_estimates(&answer, fineness, &s->target, &errors, &s->message);
     s->account.error_seconds += hr2di_clock_now() - start;
   }
   status = hr2di_search_agree(s, status);

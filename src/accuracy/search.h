@@ -5,7 +5,7 @@
 #define HR2D_SRC_ACCURACY_SEARCH_H
 
 #include "accuracy/strategy.h"
-#include "estimate/error-estimate.h"
+#include "estimate/group-estimate.h"
 
 /* The best graded solve so far, and the time and work of all. */
 typedef struct hr2di_search {

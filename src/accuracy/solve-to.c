@@ -201,7 +201,7 @@ static void hand_over(hr2di_search *s, hr2d_solution **solution) {
   *solution = s->best.solution;
   if (!*solution) return;
   hr2d_linkset *links = s->best.links;
-  if (s->best.depth) hr2di_link_blocks_trim(&links->blocks, &links->alloc);
+  if (s->best.depth) hr2di_linkset_trim_blocks(links);
   (*solution)->own_hierarchy = s->best.hierarchy;
   (*solution)->own_links = s->best.links;
   hr2di_alloc_free(&s->scene->alloc, s->best.unresolved_jump);

@@ -36,8 +36,9 @@ void hr2di_finer_clear(hr2di_finer *finer);
 hr2d_status hr2di_finer_measure(hr2di_finer *finer, const hr2d_solution *solution,
                                 hr2di_error_pair *errors);
 
-/* Estimates the error of a graded solve of this resolution; once.  Its links keep the blocks of
-   the finer operator.  Returns HR2D_OK, or a status with a reason in `message`. */
+/* Estimates the error of a graded solve of this resolution, of one group of bands; once.  Its
+   links keep the blocks of the finer operator.  Returns HR2D_OK, or a status with a reason in
+   `message`. */
 hr2d_status hr2di_error_estimate(hr2di_graded *answer, const hr2di_resolution *fineness,
                                  const hr2d_target *target, hr2di_error_pair *errors,
                                  hr2di_message *message);

@@ -140,7 +140,7 @@ static hr2d_status link_elements(hr2di_graded *a, const hr2di_graded *coarse,
   options.progress_ctx = target->progress_ctx;
   options.share = target->share;
   const hr2d_scene *scene = a->hierarchy->scene;
-  double *absorption = hr2di_scene_has_gas(scene) ? &scene->gas->scaled : NULL;
+  hr2di_gas_range *absorption = hr2di_scene_has_gas(scene) ? &scene->gas->scaled_range : NULL;
   hr2d_status status =
       hr2d_linkset_create(a->hierarchy, hr2di_admissibility_oracle(), absorption,
                           hr2di_admissibility_fixed_leaves(), NULL, &a->links);
@@ -189,7 +189,7 @@ static hr2d_status check_bytes(const hr2di_graded *a, const hr2di_resolution *fi
   const unsigned order =
       target->no_error ? fineness->order : hr2di_resolution_finer(fineness).order;
   const size_t lost = hr2di_scene_has_gas(a->hierarchy->scene) ? 2 * order * sizeof(double) : 0;
-  const double blocks = (double)hr2d_linkset_size(a->links) *
+  const double blocks = (double)hr2d_linkset_size(a->links) * (double)a->links->groups *
                         (double)(hr2di_graded_block_bytes(fineness, target->no_error) + lost);
   const double fields = field_bytes(a, fineness, target->no_error);
   if (held + blocks + fields <= (double)max) return HR2D_OK;

@@ -17,9 +17,9 @@ typedef struct passages {
   hr2di_passage mean, flux;
 } passages;
 
-static passages passages_over(const hr2di_light_source *of, double distance) {
+static passages passages_over(const hr2di_light_source *of, size_t group, double distance) {
   const hr2d_section section = hr2di_scene_section(of->scene);
-  const double depth = hr2di_scene_scaled_absorption(of->scene) * distance;
+  const double depth = hr2di_band_group_absorption(of->scene, group) * distance;
   return (passages){hr2di_passage_of_mean(section, depth), hr2di_passage_at(section, depth)};
 }
 
@@ -30,23 +30,31 @@ static const hr2di_rule *choose_rule(const hr2di_light_source *of, double ellips
   return hr2di_light_rule(of, points);
 }
 
-/* Adds the light of a place that takes an angle and ∫ω dω of it. */
+/* Adds a band of the light of a place that takes an angle and ∫ω dω of it. */
+static void add_band(hr2di_light_sum *sum, const passages *pass, size_t b, double value,
+                     double angle, hr2d_point vector) {
+  const double gas = sum->of->solution->gas[2 * b];
+  const double flux = pass->flux.arrives * value + pass->flux.absorbed * gas;
+  sum->mean[b] += angle * (pass->mean.arrives * value + pass->mean.absorbed * gas);
+  if (!sum->flux) return;
+  sum->flux[2 * b] += vector.x * flux;
+  sum->flux[2 * b + 1] += vector.y * flux;
+}
+
 static void add_place(hr2di_light_sum *sum, const hr2di_strip *s, double t, double angle,
                       hr2d_point vector) {
   const hr2di_light_source *of = sum->of;
   const size_t bands = of->solution->bands;
   const hr2d_point r = hr2di_block_along(s->from, s->along, t);
-  const passages pass = passages_over(of, sqrt(hr2di_point_dot(r, r)));
-  for (size_t b = 0; b < bands; b++) {
-    const double gas = of->solution->gas[2 * b];
-    const double value =
-        s->coefficient ? hr2di_basis_sum(&of->basis, 2 * t - 1, s->coefficient + b, bands) : 0;
-    const double mean = pass.mean.arrives * value + pass.mean.absorbed * gas;
-    const double flux = pass.flux.arrives * value + pass.flux.absorbed * gas;
-    sum->mean[b] += angle * mean;
-    if (!sum->flux) continue;
-    sum->flux[2 * b] += vector.x * flux;
-    sum->flux[2 * b + 1] += vector.y * flux;
+  for (size_t g = 0; g < hr2di_band_groups(of->scene); g++) {
+    const passages pass = passages_over(of, g, sqrt(hr2di_point_dot(r, r)));
+    for (size_t k = 0; k < hr2di_band_group_size(of->scene, g); k++) {
+      const size_t b = hr2di_band_group_at(of->scene, g, k);
+      const double value =
+          s->coefficient ? hr2di_basis_sum(&of->basis, 2 * t - 1, s->coefficient + b, bands)
+                         : 0;
+      add_band(sum, &pass, b, value, angle, vector);
+    }
   }
 }
 
@@ -70,7 +78,6 @@ static void add_panel(hr2di_light_sum *sum, const hr2di_strip *s, hr2di_span pan
 void hr2di_light_add_in_gas(hr2di_light_sum *sum, const hr2di_strip *s, hr2di_span part,
                             double angle, hr2d_point vector) {
   const hr2di_light_source *of = sum->of;
-  const double absorption = hr2di_scene_scaled_absorption(of->scene);
   hr2di_panels panels = {.count = part.to > part.from};
   double found = 0;
   hr2d_point by = {0, 0};
@@ -78,7 +85,7 @@ void hr2di_light_add_in_gas(hr2di_light_sum *sum, const hr2di_strip *s, hr2di_sp
   while (panels.count > 0) {
     const hr2di_span panel = panels.stack[--panels.count];
     const double m = hr2di_panel_ellipse(s->from, s->along, panel);
-    if ((m < HR2DI_NEAR_ELLIPSE || hr2di_panel_is_deep(s->from, s->along, panel, absorption)) &&
+    if ((m < HR2DI_NEAR_ELLIPSE || hr2di_panel_is_deep(s->from, s->along, panel, of->scene)) &&
         hr2di_panel_halved(&panels, panel))
       continue;
     if (hr2di_watch_work(sum->watch, 8 + 2 * of->solution->order * of->solution->bands)) return;

@@ -207,6 +207,12 @@ void hr2di_light_add_sky(hr2di_light_sum *sum, hr2d_point right, hr2d_point left
                              vector);
 }
 
+/* Where nothing stands gas goes on for ever. */
+static double sky_of(const hr2di_light_source *of, size_t band) {
+  const int absorbs = of->has_gas && hr2di_scene_scaled_absorption(of->scene, band) > 0;
+  return absorbs ? of->solution->gas[2 * band] : hr2d_scene_background(of->scene, band);
+}
+
 void hr2di_light_add(hr2di_light_sum *sum, const hr2di_polygon_arc *s) {
   const hr2di_light_source *of = sum->of;
   const size_t bands = of->solution->bands;
@@ -221,9 +227,7 @@ void hr2di_light_add(hr2di_light_sum *sum, const hr2di_polygon_arc *s) {
     const hr2d_point vector =
         sum->flux ? hr2di_light_vector(s->right, s->left) : (hr2d_point){0, 0};
     for (size_t b = 0; b < bands; b++)
-      hr2di_light_add_constant(
-          sum, b, of->has_gas ? of->solution->gas[2 * b] : hr2d_scene_background(of->scene, b),
-          s->angle, vector);
+      hr2di_light_add_constant(sum, b, sky_of(of, b), s->angle, vector);
     add_pieces(sum, s);
     add_suns(sum, s);
   } else {

@@ -15,6 +15,7 @@
 #include "scene/gas.h"
 #include "scene/reading-notes.h"
 #include "scene/sky.h"
+#include "scene/spectrum.h"
 #include "scene/symmetry.h"
 
 enum { HR2DI_LABEL_SIZE = 128, HR2DI_PLACE_SIZE = HR2DI_LABEL_SIZE + 64 };
@@ -46,8 +47,7 @@ typedef struct hr2di_geojson {
   size_t segments, added;
 
   /* The wavelengths that the scene had, if this file has others. */
-  double *former;
-  size_t formers;
+  hr2di_spectrum former;
   int replaced;
 
   /* What the scene gets once nothing else can fail; NULL without a sun. */

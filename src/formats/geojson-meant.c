@@ -100,7 +100,8 @@ static const char *const of_properties[] = {"back",  "emission",    "emissivity"
                                             "flux",  "name",        "reflectance",  "shield",
                                             "sides", "temperature", "transmittance"};
 static const char *const of_scene[] = {
-    "background", "background_temperature", "medium", "period", "sky", "sun", "wavelengths"};
+    "background", "background_temperature", "medium", "period", "sky", "sun", "wavelengths",
+    "weights"};
 
 #define COUNT(array) (sizeof(array) / sizeof *(array))
 
@@ -279,7 +280,7 @@ static void note_scene_member(hr2di_geojson *reader, const json_t *members, cons
   static const known_object known = {
       "hr2d", of_scene, COUNT(of_scene),
       "members of \"hr2d\" are \"background\", \"background_temperature\", "
-      "\"medium\", \"period\", \"sky\", \"sun\" and \"wavelengths\""};
+      "\"medium\", \"period\", \"sky\", \"sun\", \"wavelengths\" and \"weights\""};
   const meant *m = find_meant(in_small_letters(key).text);
   if (m && !*m->instead)
     hr2di_notes_add(&reader->notes, HR2D_WARNING_IGNORED, key, "hr2d", m->advice);

@@ -121,10 +121,15 @@ hr2d_status hr2di_geojson_thermal(hr2di_geojson *reader, const json_t *propertie
                 : read_emissivity(reader, hr2di_geojson_member(properties, "emissivity"));
 }
 
-/* The wavelengths of a former file may be said again. */
-static int are_set(const hr2d_scene *scene, const double *wavelength, size_t count) {
-  return count == scene->wavelengths &&
-         !memcmp(wavelength, scene->wavelength, count * sizeof *wavelength);
+/* The spectrum of a former file may be said again; another one takes its place. */
+static int is_set(const double *of, size_t count, const double *value, size_t values) {
+  return count == values && !memcmp(of, value, count * sizeof *value);
+}
+
+static void set_aside(hr2di_geojson *reader) {
+  if (!reader->replaced) reader->former = reader->scene->spectrum;
+  reader->replaced = 1;
+  reader->scene->spectrum = (hr2di_spectrum){0};
 }
 
 static hr2d_status read_wavelengths(hr2di_geojson *reader, const json_t *members) {
@@ -133,19 +138,65 @@ static hr2d_status read_wavelengths(hr2di_geojson *reader, const json_t *members
   hr2d_status status = hr2di_geojson_values(reader, "hr2d", "wavelengths",
                                             hr2di_geojson_member(members, "wavelengths"),
                                             DBL_MAX, &reader->emission, &count);
-  if (status || !count || are_set(scene, reader->emission.value, count)) return status;
-  reader->former = scene->wavelength;
-  reader->formers = scene->wavelengths;
-  reader->replaced = 1;
-  scene->wavelength = NULL;
-  scene->wavelengths = 0;
+  if (status || !count ||
+      is_set(scene->spectrum.wavelength, scene->spectrum.wavelengths, reader->emission.value,
+             count))
+    return status;
+  set_aside(reader);
   return hr2d_scene_set_wavelengths(scene, reader->emission.value, count);
+}
+
+/* One polynomial, of as many terms as the first one. */
+static hr2d_status read_polynomial(hr2di_geojson *reader, const json_t *json, size_t number,
+                                   size_t terms) {
+  if (!json_is_array(json) || json_array_size(json) != terms)
+    return hr2di_message_fail(
+        reader->message, HR2D_ESYNTAX,
+        "hr2d: weights: number %zu must be an array of numbers, as many as the first has: the "
+        "coefficients of 1, T, T^2 and so on",
+        number + 1);
+  for (size_t k = 0; k < terms; k++) {
+    const json_t *value = json_array_get(json, k);
+    if (!json_is_number(value))
+      return hr2di_message_fail(reader->message, HR2D_ESYNTAX,
+                                "hr2d: weights: number %zu has %s where a number must be",
+                                number + 1, hr2di_geojson_kind(value));
+    reader->emission.value[number * terms + k] = json_number_value(value);
+  }
+  return HR2D_OK;
+}
+
+static hr2d_status read_weights(hr2di_geojson *reader, const json_t *members) {
+  const json_t *json = hr2di_geojson_member(members, "weights");
+  hr2d_scene *scene = reader->scene;
+  if (!json) return HR2D_OK;
+  const size_t count = json_array_size(json), terms = json_array_size(json_array_get(json, 0));
+  if (!count || !terms || count > HR2D_MAX_WAVELENGTHS || terms > HR2D_MAX_WAVELENGTHS)
+    return hr2di_message_fail(
+        reader->message, HR2D_ESYNTAX,
+        "hr2d: weights: must be an array of polynomials in T, one for each "
+        "band behind the first");
+  if (hr2di_geojson_member(members, "wavelengths"))
+    return hr2di_message_fail(reader->message, HR2D_ESCENE,
+                              "hr2d: wavelengths and weights cannot both be given");
+  if (hr2di_alloc_reserve(reader->alloc, &reader->emission.value, &reader->emission.capacity,
+                          count * terms, sizeof *reader->emission.value))
+    return hr2di_message_fail(reader->message, HR2D_ENOMEM, "hr2d: out of memory");
+  hr2d_status status = HR2D_OK;
+  for (size_t k = 0; k < count && !status; k++)
+    status = read_polynomial(reader, json_array_get(json, k), k, terms);
+  if (status || (terms == scene->spectrum.terms &&
+                 is_set(scene->spectrum.weight, scene->spectrum.weights * terms,
+                        reader->emission.value, count * terms)))
+    return status;
+  set_aside(reader);
+  return hr2d_scene_set_weights(scene, reader->emission.value, count, terms);
 }
 
 static hr2d_status read_background(hr2di_geojson *reader, const json_t *members,
                                    size_t *bands) {
   const json_t *json = hr2di_geojson_member(members, "background_temperature");
-  const size_t count = reader->scene->wavelengths + 1;
+  const size_t count = hr2di_scene_spectral_bands(reader->scene);
   double kelvin = 0;
   if (!json) return HR2D_OK;
   if (*bands)
@@ -154,6 +205,13 @@ static hr2d_status read_background(hr2di_geojson *reader, const json_t *members,
                               "given");
   hr2d_status status = read_number(reader, "hr2d", "background_temperature", json, &kelvin);
   if (status) return status;
+  size_t band;
+  if (!hr2di_spectrum_knows(&reader->scene->spectrum, kelvin, &band))
+    return hr2di_message_fail(
+        reader->message, HR2D_ESCENE,
+        "hr2d: background_temperature: at %.9g K the weight of band %zu is "
+        "not between 0 and 1",
+        kelvin, band);
   if (kelvin < 0 || !isfinite(hr2d_black_body(kelvin)))
     return hr2di_message_fail(reader->message, HR2D_ESCENE,
                               "hr2d: background_temperature: must be 0 K or more, and its "
@@ -172,15 +230,15 @@ static hr2d_status read_background(hr2di_geojson *reader, const json_t *members,
 
 hr2d_status hr2di_geojson_spectrum(hr2di_geojson *reader, const json_t *members,
                                    size_t *background_bands) {
-  const hr2d_status status = read_wavelengths(reader, members);
+  hr2d_status status = read_wavelengths(reader, members);
+  if (!status) status = read_weights(reader, members);
   return status ? status : read_background(reader, members, background_bands);
 }
 
 void hr2di_geojson_end_spectrum(hr2di_geojson *reader, hr2d_status status) {
-  hr2d_scene *scene = reader->scene;
+  hr2di_spectrum *own = &reader->scene->spectrum, *old = status ? own : &reader->former;
   if (!reader->replaced) return;
-  hr2di_alloc_free(reader->alloc, status ? scene->wavelength : reader->former);
-  if (!status) return;
-  scene->wavelength = reader->former;
-  scene->wavelengths = reader->formers;
+  hr2di_alloc_free(reader->alloc, old->wavelength);
+  hr2di_alloc_free(reader->alloc, old->weight);
+  if (status) *own = reader->former;
 }

@@ -22,9 +22,11 @@ struct hr2d_linkset {
   void *policy_ctx;
   hr2di_message message;
   hr2di_store store;
-  hr2di_link_blocks blocks;  /* of links that were solved at an order above 1 */
-  hr2d_share *share;         /* of a solve that these are the links of; NULL: all of it */
-  hr2di_roots roots;         /* where a refinement begins; empty: at all pairs of patches */
+  hr2di_link_blocks blocks; /* of links that were solved at an order above 1, or through gas; */
+  hr2di_link_blocks *more;  /* those of the groups of bands behind the first, see */
+  size_t groups;            /* scene/band-groups.h: so many with the first */
+  hr2d_share *share;        /* of a solve that these are the links of; NULL: all of it */
+  hr2di_roots roots;        /* where a refinement begins; empty: at all pairs of patches */
   unsigned char *sees_backs; /* per patch, see hr2di_back_visibility(); NULL: nobody has looked,
                                 or there are no backs to see */
   int directed;
@@ -42,5 +44,27 @@ static inline double hr2di_linkset_weight(const hr2d_linkset *links, hr2d_pair p
   if (!s->motion) return 1;
   return hr2di_symmetry_weight(s, e[pair.first].patch, e[pair.second].patch, links->directed);
 }
+
+/* The blocks of a group of bands. */
+static inline hr2di_link_blocks *hr2di_linkset_blocks(hr2d_linkset *links, size_t group) {
+  return group ? &links->more[group - 1] : &links->blocks;
+}
+
+/* Those of all groups: keeps the leading part of each alone; keeps nothing. */
+void hr2di_linkset_trim_blocks(hr2d_linkset *links);
+void hr2di_linkset_clear_blocks(hr2d_linkset *links);
+
+/* A set for one group of bands, as hr2di_solve() takes it: links, elements and all else are
+   those of a set, which changes nothing in the meantime; the scene and the blocks are those of
+   the group.  hr2di_linkset_part_end() gives back what was made. */
+typedef struct hr2di_linkset_part {
+  hr2d_linkset links;
+  hr2d_hierarchy hierarchy;
+  hr2d_linkset *whole;
+  size_t group;
+} hr2di_linkset_part;
+
+void hr2di_linkset_part_begin(hr2di_linkset_part *part, hr2d_linkset *whole, size_t group);
+void hr2di_linkset_part_end(hr2di_linkset_part *part);
 
 #endif

@@ -7,6 +7,7 @@
 #include "base/sized-struct.h"
 #include "hierarchy/hierarchy-impl.h"
 #include "links/linkset-impl.h"
+#include "scene/band-groups.h"
 #include "scene/scene-impl.h"
 
 /* Whether a table of the caller's size has a member. */
@@ -33,8 +34,48 @@ hr2d_status hr2d_linkset_create(hr2d_hierarchy *hierarchy, const hr2d_oracle *or
   made->policy_ctx = policy_ctx;
   if (!made->policy.preferred_subdivision)
     made->policy.preferred_subdivision = hr2d_policy_original()->preferred_subdivision;
+  made->groups = hr2di_band_groups(hierarchy->scene);
+  if (made->groups > 1) {
+    made->more = hr2di_alloc_zero(&made->alloc, made->groups - 1, sizeof *made->more);
+    if (!made->more) {
+      hr2di_alloc_free(&hierarchy->alloc, made);
+      return HR2D_ENOMEM;
+    }
+  }
   *links = made;
   return HR2D_OK;
+}
+
+void hr2di_linkset_trim_blocks(hr2d_linkset *links) {
+  for (size_t g = 0; g < links->groups; g++)
+    hr2di_link_blocks_trim(hr2di_linkset_blocks(links, g), &links->alloc);
+}
+
+void hr2di_linkset_clear_blocks(hr2d_linkset *links) {
+  for (size_t g = 0; g < links->groups; g++)
+    hr2di_link_blocks_clear(hr2di_linkset_blocks(links, g), &links->alloc);
+}
+
+void hr2di_linkset_part_begin(hr2di_linkset_part *part, hr2d_linkset *whole, size_t group) {
+  part->whole = whole;
+  part->group = group;
+  part->hierarchy = *whole->hierarchy;
+  part->hierarchy.scene = whole->hierarchy->scene->group[group];
+  part->hierarchy.refining = 0;
+  atomic_init(&part->hierarchy.readers, 0);
+  part->links = *whole;
+  part->links.hierarchy = &part->hierarchy;
+  part->links.blocks = *hr2di_linkset_blocks(whole, group);
+  part->links.more = NULL;
+  part->links.groups = 1;
+  part->links.solving = 0;
+}
+
+void hr2di_linkset_part_end(hr2di_linkset_part *part) {
+  hr2d_linkset *whole = part->whole;
+  *hr2di_linkset_blocks(whole, part->group) = part->links.blocks;
+  whole->sees_backs = part->links.sees_backs;
+  whole->message = part->links.message;
 }
 
 void hr2d_linkset_destroy(hr2d_linkset *links) {
@@ -43,7 +84,8 @@ void hr2d_linkset_destroy(hr2d_linkset *links) {
   if (links->policy.destroy) links->policy.destroy(links->policy_ctx);
   const hr2d_allocator alloc = links->alloc;
   hr2di_store_clear(&links->store, &alloc);
-  hr2di_link_blocks_clear(&links->blocks, &alloc);
+  hr2di_linkset_clear_blocks(links);
+  hr2di_alloc_free(&alloc, links->more);
   hr2di_roots_clear(&links->roots, &alloc);
   hr2di_alloc_free(&alloc, links->sees_backs);
   hr2di_alloc_free(&alloc, links);
@@ -122,7 +164,10 @@ uint64_t hr2d_linkset_own_tests(const hr2d_linkset *links) {
 uint64_t hr2d_linkset_bytes(const hr2d_linkset *links) {
   if (!links) return 0;
   const hr2di_roots *r = &links->roots;
+  uint64_t blocks = hr2di_link_blocks_bytes(&links->blocks);
+  for (size_t g = 1; g < links->groups; g++)
+    blocks += hr2di_link_blocks_bytes(&links->more[g - 1]);
   return hr2di_store_bytes(&links->store) +
          (r->clusters ? hr2di_clusters_bytes(r->clusters) : 0) + r->capacity * sizeof *r->pair +
-         hr2di_link_blocks_bytes(&links->blocks);
+         blocks;
 }

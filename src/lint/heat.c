@@ -45,8 +45,10 @@ static hr2d_status warn_of_celsius(const hr2di_lint *lint, range kelvin) {
    there is nothing that even the coldest patch emits. */
 static hr2d_status warn_of_wavelengths(const hr2di_lint *lint, range kelvin) {
   const hr2d_scene *scene = lint->scene;
-  if (!scene->wavelengths || !(kelvin.low > 0 && kelvin.high < DBL_MAX)) return HR2D_OK;
-  const double first = scene->wavelength[0], last = scene->wavelength[scene->wavelengths - 1];
+  if (!scene->spectrum.wavelengths || !(kelvin.low > 0 && kelvin.high < DBL_MAX))
+    return HR2D_OK;
+  const double first = scene->spectrum.wavelength[0],
+               last = scene->spectrum.wavelength[scene->spectrum.wavelengths - 1];
   const int metres = hr2d_black_body_part(kelvin.high, 0, last) == 0;
   const int nanometres = hr2d_black_body_part(kelvin.low, first, HUGE_VAL) < NOTHING;
   if (!metres && !nanometres) return HR2D_OK;

@@ -8,6 +8,7 @@
 #include "geometry/bernstein-ellipse.h"
 #include "geometry/predicates.h"
 #include "oracle/built-in.h"
+#include "scene/gas.h"
 
 /* On an element with children radiosity is not smooth: of the product of its rough part and the
    kernel's, which a link drops, only the kernel's is small, and so it must be smaller: at 6 the
@@ -25,9 +26,10 @@ static double depth_between(const hr2d_element *i, const hr2d_element *j, double
 }
 
 /* Whether gas lets elements be linked. */
-static int is_clear(const hr2d_element *i, const hr2d_element *j, double absorption) {
-  const double rough = fmax(i->child ? i->length : 0, j->child ? j->length : 0) * absorption;
-  return rough <= ROUGH_DEPTH || depth_between(i, j, absorption) > HR2DI_GAS_DARK;
+static int is_clear(const hr2d_element *i, const hr2d_element *j, hr2di_gas_range absorption) {
+  const double rough =
+      fmax(i->child ? i->length : 0, j->child ? j->length : 0) * absorption.most;
+  return rough <= ROUGH_DEPTH || depth_between(i, j, absorption.least) > HR2DI_GAS_DARK;
 }
 
 /* The ellipse that an element needs. */
@@ -43,7 +45,7 @@ static int is_separate(const hr2d_element *i, const hr2d_element *j, int partial
 }
 
 static hr2d_status estimate(void *ctx, const hr2d_batch *batch, double *error) {
-  const double *absorption = ctx;
+  const hr2di_gas_range *absorption = ctx;
   for (size_t k = 0; k < batch->count; k++) {
     const hr2d_pair pair = batch->pairs[k];
     const hr2d_element *i = &batch->elements[pair.first], *j = &batch->elements[pair.second];

@@ -154,7 +154,7 @@ static hr2di_grading_mark grade_at(hr2di_grader *g, uint32_t patch,
   const double along = (u.x * w.x + u.y * w.y) / scale, up = (u.x * w.y - u.y * w.x) / scale;
   const double own = hr2di_grading_reflectance(scene, patch);
   const double depth = hr2di_scene_has_gas(scene)
-                           ? hr2di_scene_scaled_absorption(scene) * scene->patch[patch].length
+                           ? hr2di_scene_scaled_range(scene).most * scene->patch[patch].length
                            : 0;
   hr2di_grading_mark m = {.depth = 0};
   /* Its front looks along u if it leads downwards. */

@@ -78,8 +78,10 @@ static hr2d_status count(division *d, const hr2d_link *link) {
 
 /* Moves the blocks of links [from, from + count) behind those that are kept so far. */
 static void move_blocks(division *d, uint64_t from, size_t count) {
-  hr2di_link_blocks *b = &d->coarse->blocks;
-  if (b->links > 0) hr2di_link_blocks_move(b, d->kept.count, from, count);
+  for (size_t g = 0; g < d->coarse->groups; g++) {
+    hr2di_link_blocks *b = hr2di_linkset_blocks(d->coarse, g);
+    if (b->links > 0) hr2di_link_blocks_move(b, d->kept.count, from, count);
+  }
 }
 
 /* Keeps some links, one behind the other, from number `first` on. */
@@ -165,12 +167,15 @@ static hr2d_status sort_links(division *d) {
 
 /* The blocks of the links that are kept become those of the new set. */
 static void take_blocks(division *d) {
-  hr2di_link_blocks *b = &d->coarse->blocks;
-  if (b->links == 0) return;
-  d->links->blocks = *b;
-  d->links->blocks.links = d->kept.count;
-  d->links->blocks.kernels = 0;
-  *b = (hr2di_link_blocks){0};
+  for (size_t g = 0; g < d->coarse->groups; g++) {
+    hr2di_link_blocks *b = hr2di_linkset_blocks(d->coarse, g),
+                      *to = hr2di_linkset_blocks(d->links, g);
+    if (b->links == 0) continue;
+    *to = *b;
+    to->links = d->kept.count;
+    to->kernels = 0;
+    *b = (hr2di_link_blocks){0};
+  }
 }
 
 /* What is left of a budget; 1 if nothing is, as 0 means that there is none. */

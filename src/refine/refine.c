@@ -250,7 +250,7 @@ static hr2d_status refine(hr2d_linkset *links, const hr2di_refine_how *how,
     hr2di_store_clear(&made, &links->alloc);
   } else {
     hr2di_store_clear(&links->store, &links->alloc);
-    hr2di_link_blocks_clear(&links->blocks, &links->alloc);
+    hr2di_linkset_clear_blocks(links);
     links->store = made;
     links->directed = p->directed;
     links->epsilon = used.epsilon;

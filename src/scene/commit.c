@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Commit: checks and analyses a scene once; from then on the scene is only read. */
 #include "base/alloc.h"
+#include "scene/band-groups.h"
 #include "scene/scene-impl.h"
 
 /* Light from outside may have one value for all bands, too. */
@@ -80,6 +81,12 @@ static hr2d_status check_far_sky(hr2d_scene *scene) {
                             bearing);
 }
 
+static hr2d_status make_groups(hr2d_scene *scene, hr2di_watch *watch) {
+  const hr2d_status status = hr2di_band_groups_make(scene, watch);
+  if (!status || status == HR2D_EUNSUPPORTED) return status;
+  return hr2di_scene_fail(scene, status, watch, "bands through gas");
+}
+
 /* With K = `copies` in a period.  Returns HR2D_OK, or a status with nothing made. */
 static hr2d_status commit(hr2d_scene *scene, unsigned copies, hr2di_watch *watch) {
   hr2d_status (*const part[])(hr2d_scene *, hr2di_watch *) = {hr2di_scene_check_bands,
@@ -95,7 +102,8 @@ static hr2d_status commit(hr2d_scene *scene, unsigned copies, hr2di_watch *watch
                                                               hr2di_scene_measure_ends,
                                                               forget_weights,
                                                               keep_plane,
-                                                              find_sunlight};
+                                                              find_sunlight,
+                                                              make_groups};
   const size_t parts = sizeof part / sizeof *part;
   hr2d_status status = HR2D_OK;
   if (hr2di_symmetry_wanted(&scene->symmetry))

@@ -113,7 +113,7 @@ static void analyse_medium(hr2d_scene *scene) {
     return;
   }
   set(scene, HR2D_EFFECT_MEDIUM, 1, "the gas absorbs %g per length",
-      hr2d_scene_absorption(scene, 0, 0));
+      scene->gas->given_range.most);
   if (hr2di_scene_gas_emits(scene) && !scene->effect[HR2D_EFFECT_EMISSION].on)
     set(scene, HR2D_EFFECT_EMISSION, 1, "the gas emits");
 }

@@ -52,7 +52,7 @@ double hr2d_scene_emissivity_at(const hr2d_scene *scene, size_t patch, size_t ba
   if (!hr2di_scene_has(scene, patch) || !hr2di_scene_has_band(scene, band)) return NAN;
   if (scene->patch[patch].light->heat == HR2D_HEAT_NONE) return NAN;
   const hr2d_thermal t = thermal_of(scene, patch);
-  return hr2di_emissivity_of(&t, band % (scene->wavelengths + 1), kelvin);
+  return hr2di_emissivity_of(&t, band % (hr2di_scene_spectral_bands(scene)), kelvin);
 }
 
 double hr2d_scene_emissivity(const hr2d_scene *scene, size_t patch, size_t band) {

@@ -9,6 +9,7 @@
 #include "base/sized-struct.h"
 #include "scene/frozen-temperatures.h"
 #include "scene/scene-impl.h"
+#include "scene/sky.h"
 
 static hr2d_status refuse(hr2d_scene *scene, hr2d_status status, const char *why) {
   return hr2di_message_fail(&scene->message, status, "gas: %s", why);
@@ -40,6 +41,16 @@ static hr2d_status check_heat(hr2d_scene *scene, const hr2d_gas *g) {
   return HR2D_OK;
 }
 
+static hr2di_gas_range range_of(const hr2di_gas *g) {
+  if (g->absorption_bands == 0) return (hr2di_gas_range){0, 0};
+  hr2di_gas_range range = {HUGE_VAL, 0};
+  for (size_t b = 0; b < g->absorption_bands; b++) {
+    range.least = fmin(range.least, g->values[b]);
+    range.most = fmax(range.most, g->values[b]);
+  }
+  return range;
+}
+
 hr2d_status hr2di_scene_make_gas(hr2d_scene *scene, const hr2d_gas *g, hr2di_gas **gas) {
   hr2d_status status = check_values(scene, g->absorption, g->absorption_bands,
                                     "the absorption is negative or not finite");
@@ -60,6 +71,7 @@ hr2d_status hr2di_scene_make_gas(hr2d_scene *scene, const hr2d_gas *g, hr2di_gas
                       .value = g->value,
                       .section = g->section};
   for (size_t b = 0; b < g->absorption_bands; b++) made->values[b] = g->absorption[b];
+  made->given_range = range_of(made);
   for (size_t b = 0; b < g->emission_bands; b++)
     made->values[g->absorption_bands + b] = g->emission[b];
   *gas = made;
@@ -97,11 +109,16 @@ double hr2d_scene_absorption(const hr2d_scene *scene, size_t gas, size_t band) {
 }
 
 int hr2di_scene_has_gas(const hr2d_scene *scene) {
-  return hr2d_scene_absorption(scene, 0, 0) > 0;
+  return scene->gas && scene->gas->given_range.most > 0;
 }
 
-double hr2di_scene_scaled_absorption(const hr2d_scene *scene) {
-  return scene->gas->scaled;
+double hr2di_scene_scaled_absorption(const hr2d_scene *scene, size_t band) {
+  if (!scene->gas) return 0;
+  return ldexp(hr2d_scene_absorption(scene, 0, band), scene->exponent);
+}
+
+hr2di_gas_range hr2di_scene_scaled_range(const hr2d_scene *scene) {
+  return scene->gas ? scene->gas->scaled_range : (hr2di_gas_range){0, 0};
 }
 
 hr2d_section hr2di_scene_section(const hr2d_scene *scene) {
@@ -110,8 +127,7 @@ hr2d_section hr2di_scene_section(const hr2d_scene *scene) {
 
 double hr2di_scene_gas_emission(const hr2d_scene *scene, size_t band) {
   const hr2di_gas *g = scene->gas;
-  if (!hr2di_scene_has_gas(scene)) return 0;
-  if (g->given == HR2D_HEAT_FLUX) return 0;
+  if (!hr2di_scene_has_gas(scene) || g->given == HR2D_HEAT_FLUX) return 0;
   if (g->given == HR2D_HEAT_TEMPERATURE)
     return hr2di_scene_band_part(scene, g->value, band) * hr2d_black_body(g->value);
   const double *emission = g->values + g->absorption_bands;
@@ -130,7 +146,8 @@ double hr2di_scene_gas_heat(const hr2d_scene *scene) {
 int hr2di_scene_gas_emits(const hr2d_scene *scene) {
   if (hr2di_scene_gas_is_free(scene)) return scene->gas->value != 0;
   for (size_t b = 0; b < scene->bands; b++)
-    if (hr2di_scene_gas_emission(scene, b) > 0) return 1;
+    if (hr2d_scene_absorption(scene, 0, b) > 0 && hr2di_scene_gas_emission(scene, b) > 0)
+      return 1;
   return 0;
 }
 
@@ -140,38 +157,40 @@ hr2d_status hr2di_gas_refuses(const hr2d_scene *scene, const char *what,
   if (message)
     hr2di_message_fail(message, HR2D_EUNSUPPORTED,
                        "the scene has a gas that absorbs %g per length: %s through gas",
-                       hr2d_scene_absorption(scene, 0, 0), what);
+                       scene->gas->given_range.most, what);
   return HR2D_EUNSUPPORTED;
 }
 
+/* Whether light comes from outside in a band that gas absorbs. */
 static int has_light_outside(const hr2d_scene *scene) {
-  int light = hr2di_scene_has_sun(scene) || hr2di_scene_has_sky(scene);
-  for (size_t b = 0; b < scene->bands; b++) light |= hr2d_scene_background(scene, b) > 0;
-  return light;
-}
-
-/* Blocks serve all bands. */
-static int differs(const hr2di_gas *g) {
-  for (size_t b = 1; b < g->absorption_bands; b++)
-    if (g->values[b] != g->values[0]) return 1;
+  for (size_t b = 0; b < scene->bands; b++)
+    if (hr2d_scene_absorption(scene, 0, b) > 0 &&
+        (hr2di_sky_max(scene, b) > 0 || hr2d_scene_sun(scene, b).irradiance > 0))
+      return 1;
   return 0;
 }
 
 hr2d_status hr2di_scene_check_gas(hr2d_scene *scene, hr2di_watch *watch) {
   (void)watch;
-  const hr2di_gas *g = scene->gas;
+  size_t band;
+  hr2di_gas *g = scene->gas;
   if (!g) return HR2D_OK;
-  if (differs(g))
-    return refuse(scene, HR2D_EUNSUPPORTED,
-                  "the absorption differs from band to band, which this version does not do");
   if (!hr2di_scene_has_gas(scene)) return HR2D_OK;
-  scene->gas->scaled = ldexp(g->values[0], scene->exponent);
-  if (!isfinite(scene->gas->scaled))
+  g->scaled_range = (hr2di_gas_range){ldexp(g->given_range.least, scene->exponent),
+                                      ldexp(g->given_range.most, scene->exponent)};
+  if (!isfinite(g->scaled_range.most))
     return refuse(scene, HR2D_ESCENE, "the absorption over a scene length is beyond a double");
-  if (g->given == HR2D_HEAT_TEMPERATURE && scene->bands > scene->wavelengths + 1)
-    return refuse(scene, HR2D_ESCENE,
-                  "it has a temperature, and the scene has bands without wavelengths");
-  if (g->given == HR2D_HEAT_FLUX && (scene->bands > 1 || scene->wavelengths))
+  if (g->given == HR2D_HEAT_TEMPERATURE && scene->bands > hr2di_scene_spectral_bands(scene))
+    return refuse(
+        scene, HR2D_ESCENE,
+        "it has a temperature, and the scene has bands without wavelengths or weights");
+  if (g->given == HR2D_HEAT_TEMPERATURE &&
+      !hr2di_spectrum_knows(&scene->spectrum, g->value, &band))
+    return hr2di_message_fail(
+        &scene->message, HR2D_ESCENE,
+        "gas: at %.9g K the weight of band %zu is %.6g, not between 0 and 1", g->value, band,
+        hr2di_scene_band_part(scene, g->value, band));
+  if (g->given == HR2D_HEAT_FLUX && (scene->bands > 1 || hr2di_scene_spectral_bands(scene) > 1))
     return refuse(
         scene, HR2D_EUNSUPPORTED,
         "its heat is given in several bands, for which this version does not find its "

@@ -8,25 +8,33 @@
 #include "base/message.h"
 #include "base/watch.h"
 
+/* κ of all bands, from the least to the most. */
+typedef struct hr2di_gas_range {
+  double least, most;
+} hr2di_gas_range;
+
 /* As it was given, with values in memory of its own. */
 typedef struct hr2di_gas {
   size_t absorption_bands, emission_bands;
   hr2d_heat given;
   double value; /* as `given` says */
   hr2d_section section;
-  double scaled;   /* κ per unit of the scaled coordinates; set by commit */
-  double values[]; /* κ, then E_g */
+  hr2di_gas_range given_range, scaled_range; /* of κ; the latter is set by commit */
+  double values[];                           /* κ, then E_g */
 } hr2di_gas;
 
 /* The most values that it has of κ or of E_g. */
 size_t hr2di_scene_gas_bands(const hr2d_scene *scene);
 
-/* Whether light passes through gas: a committed scene has one with κ > 0.  Everything asks
+/* Whether light of some band passes through gas: a scene has one with κ > 0.  Everything asks
    this, and so a scene without gas takes the way that it always took. */
 int hr2di_scene_has_gas(const hr2d_scene *scene);
 
-/* κ per unit of the scaled coordinates, of a scene with gas. */
-double hr2di_scene_scaled_absorption(const hr2d_scene *scene);
+/* κ of a band per unit of the scaled coordinates, and of all bands; 0 without gas. */
+double hr2di_scene_scaled_absorption(const hr2d_scene *scene, size_t band);
+hr2di_gas_range hr2di_scene_scaled_range(const hr2d_scene *scene);
+
+/* Of a scene with gas. */
 hr2d_section hr2di_scene_section(const hr2d_scene *scene);
 
 /* Whether light comes from gas: it reaches every patch. */
@@ -36,7 +44,8 @@ int hr2di_scene_gas_emits(const hr2d_scene *scene);
 int hr2di_scene_gas_is_free(const hr2d_scene *scene);
 double hr2di_scene_gas_heat(const hr2d_scene *scene);
 
-/* E_g of a band; 0 without gas, and if its heat is given. */
+/* E_g of a band, also of one in which nothing absorbs; 0 without gas, and if its heat is given.
+ */
 double hr2di_scene_gas_emission(const hr2d_scene *scene, size_t band);
 
 /* HR2D_EUNSUPPORTED with a message if the scene has gas, through which `what` does not go; else

@@ -6,6 +6,7 @@
 
 #include "base/alloc.h"
 #include "scene/panes.h"
+#include "scene/relit-scene.h"
 
 hr2di_light *hr2di_light_make(const hr2d_allocator *alloc, const hr2d_patch *patch,
                               const hr2d_thermal *thermal) {
@@ -70,11 +71,16 @@ double hr2d_scene_reflectance(const hr2d_scene *scene, size_t patch, size_t band
 double hr2d_scene_transmittance(const hr2d_scene *scene, size_t patch, size_t band) {
   if (!hr2di_scene_has(scene, patch) || !hr2di_scene_has_band(scene, band)) return NAN;
   if (scene->lender)
-    return hr2d_scene_transmittance(scene->lender, patch, band % scene->lender->bands);
+    return hr2d_scene_transmittance(scene->lender, patch, hr2di_relit_band(scene, band));
   const hr2di_light *light = scene->patch[patch].light;
   if (light->heat == HR2D_HEAT_SHIELD) return transmittance_of_shield(scene, patch);
   const size_t tables = light->kelvins ? light->kelvins : 1;
   return hr2di_band_value(light->value + light->emission_bands + light->reflectance_bands +
                               light->emissivity_bands * tables + light->kelvins,
                           light->transmittance_bands, band);
+}
+
+double hr2d_scene_background(const hr2d_scene *scene, size_t band) {
+  if (!hr2di_scene_has_band(scene, band)) return NAN;
+  return hr2di_band_value(scene->background, scene->background_bands, band);
 }

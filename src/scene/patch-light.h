@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The values of the bands of a patch: emission, reflectance, transmittance. */
+/* The values of bands: of a patch, its emission, reflectance and transmittance, and of the
+   background. */
 #ifndef HR2D_SRC_SCENE_PATCH_LIGHT_H
 #define HR2D_SRC_SCENE_PATCH_LIGHT_H
 

@@ -34,7 +34,7 @@ static hr2d_status make_lights(hr2d_scene *made, const hr2d_scene *scene) {
   for (size_t k = 0; k < cell; k++) {
     made->patch[k].light = (hr2di_light *)(void *)next;
     make_light(made->patch[k].light, scene->patch[k].light, made->bands,
-               made->bands > made->lender->bands);
+               made->band_of || made->bands > made->lender->bands);
     next += size_of(scene->patch[k].light, made->bands);
   }
   for (size_t k = cell; k < scene->patches; k++)
@@ -56,18 +56,23 @@ static hr2d_status make_outside(hr2d_scene *made, const hr2d_scene *scene) {
   return HR2D_OK;
 }
 
+/* The band of a scene of as many bands, or of a part of them, or of the lender. */
+static size_t band_in(const hr2d_scene *relit, const hr2d_scene *scene, size_t band) {
+  return relit->band_of ? relit->band_of[band] : band % scene->bands;
+}
+
 static void take_patch(hr2d_scene *relit, const hr2d_scene *scene, size_t k) {
   double *emission = hr2di_relit_emission(relit, k), *rho = hr2di_relit_reflectance(relit, k);
   relit->patch[k].light->given = scene->patch[k].light->given;
   for (size_t b = 0; b < relit->bands; b++) {
-    emission[b] = hr2d_scene_emission(scene, k, b % scene->bands);
-    rho[b] = hr2d_scene_reflectance(scene, k, b % scene->bands);
+    emission[b] = hr2d_scene_emission(scene, k, band_in(relit, scene, b));
+    rho[b] = hr2d_scene_reflectance(scene, k, band_in(relit, scene, b));
   }
 }
 
 static void take_outside(hr2d_scene *relit, const hr2d_scene *scene, size_t band) {
   const hr2di_sky *sky = &scene->sky;
-  const size_t of = band % scene->bands;
+  const size_t of = band_in(relit, scene, band);
   relit->background[band] = hr2d_scene_background(scene, of);
   if (scene->sun) relit->sun[band] = hr2d_scene_sun(scene, of);
   for (size_t k = 0; k < sky->pieces; k++)
@@ -88,21 +93,25 @@ hr2d_status hr2di_relit_renew(hr2d_scene *relit, const hr2d_scene *scene, hr2di_
   return status;
 }
 
-hr2d_status hr2di_relit_create(const hr2d_scene *scene, size_t times, hr2d_scene **relit) {
-  const hr2d_scene *lender = scene->lender ? scene->lender : scene;
+/* A scene that has nothing of its own yet. */
+static hr2d_scene *borrow(const hr2d_scene *scene, size_t bands) {
   hr2d_scene *made = hr2di_alloc(&scene->alloc, 1, sizeof *made);
-  if (!made) return HR2D_ENOMEM;
+  if (!made) return NULL;
   *made = *scene;
-  made->lender = lender;
-  made->bands = lender->bands * times;
+  made->lender = scene->lender ? scene->lender : scene;
+  made->bands = bands;
   made->patch = NULL;
   made->own_lights = NULL;
+  made->band_of = NULL;
+  made->group = NULL;
+  made->groups = 0;
   made->background = NULL;
   made->sun = NULL;
   made->sky.value = NULL;
-  made->dark = NULL;
-  made->effect[HR2D_EFFECT_INTERREFLECTION].on = 1;
-  made->effect[HR2D_EFFECT_INTERREFLECTION].called_for = 1;
+  return made;
+}
+
+static hr2d_status fill(hr2d_scene *made, const hr2d_scene *scene, hr2d_scene **relit) {
   hr2d_status status = make_lights(made, scene);
   if (!status) status = make_outside(made, scene);
   if (status) {
@@ -113,11 +122,34 @@ hr2d_status hr2di_relit_create(const hr2d_scene *scene, size_t times, hr2d_scene
   return hr2di_relit_renew(made, scene, NULL);
 }
 
+hr2d_status hr2di_relit_create(const hr2d_scene *scene, size_t times, hr2d_scene **relit) {
+  const hr2d_scene *lender = scene->lender ? scene->lender : scene;
+  hr2d_scene *made = borrow(scene, lender->bands * times);
+  if (!made) return HR2D_ENOMEM;
+  made->dark = NULL;
+  made->effect[HR2D_EFFECT_INTERREFLECTION].on = 1;
+  made->effect[HR2D_EFFECT_INTERREFLECTION].called_for = 1;
+  return fill(made, scene, relit);
+}
+
+hr2d_status hr2di_relit_create_bands(const hr2d_scene *scene, const size_t *band_of,
+                                     size_t bands, hr2d_scene **relit) {
+  hr2d_scene *made = borrow(scene, bands);
+  if (!made) return HR2D_ENOMEM;
+  made->committed = 1;
+  made->band_of = hr2di_alloc(&scene->alloc, bands, sizeof *made->band_of);
+  if (made->band_of) memcpy(made->band_of, band_of, bands * sizeof *band_of);
+  if (made->band_of) return fill(made, scene, relit);
+  hr2di_relit_destroy(made);
+  return HR2D_ENOMEM;
+}
+
 /* The lender may be gone. */
 void hr2di_relit_destroy(hr2d_scene *relit) {
   if (!relit) return;
   const hr2d_allocator alloc = relit->alloc;
   hr2di_alloc_free(&alloc, relit->own_lights);
+  hr2di_alloc_free(&alloc, relit->band_of);
   hr2di_alloc_free(&alloc, relit->patch);
   hr2di_alloc_free(&alloc, relit->found);
   if (!relit->origin) { /* a scene of frozen temperatures shares those */

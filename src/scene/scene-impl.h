@@ -16,6 +16,7 @@
 #include "scene/reading-notes.h"
 #include "scene/side-parts.h"
 #include "scene/sky.h"
+#include "scene/spectrum.h"
 #include "scene/sunlight.h"
 #include "scene/symmetry.h"
 
@@ -59,8 +60,7 @@ struct hr2d_scene {
   hr2di_sky sky;
   hr2d_sun *sun; /* sun_bands of them; NULL for none */
   size_t sun_bands;
-  double *wavelength; /* that divide the spectrum into bands; NULL for none */
-  size_t wavelengths;
+  hr2di_spectrum spectrum;
   hr2di_symmetry symmetry;
   hr2di_gas *gas; /* NULL for none */
   hr2di_notes notes;
@@ -82,9 +82,12 @@ struct hr2d_scene {
     int forced;
     char reason[400];
   } effect[HR2D_EFFECT_COUNT];
+  hr2d_scene **group; /* groups of bands through gas, see band-groups.h; NULL: one */
+  size_t groups;
   const hr2d_scene
       *lender;      /* of a scene with other light, see relit-scene.h; otherwise NULL, */
-  void *own_lights; /* as this: the lights of its patches that it owns */
+  void *own_lights; /* as this: the lights of its patches that it owns, */
+  size_t *band_of; /* and this: per band that of the lender; NULL: those of the lender repeat */
   const hr2d_scene *origin;  /* of a scene of frozen temperatures, see frozen-temperatures.h;
                                 otherwise NULL, */
   struct hr2di_found *found; /* as this; per patch */
@@ -127,12 +130,6 @@ hr2di_label hr2di_patch_label(const hr2d_scene *scene, size_t patch);
 
 /* Of the patch that is to be added next, with a name or NULL. */
 hr2di_label hr2di_new_patch_label(const hr2d_scene *scene, const char *name);
-
-/* The part of the black body's emission that a band of the wavelengths has; 1 without them. */
-double hr2di_scene_band_part(const hr2d_scene *scene, double kelvin, size_t band);
-
-/* Its derivative, with the emission, by σT⁴; see hr2di_black_body_rise(). */
-double hr2di_scene_band_rise(const hr2d_scene *scene, double kelvin, size_t band);
 
 /* Removes the plane and its side parts. */
 void hr2di_scene_clear_plane(hr2d_scene *scene);
@@ -182,6 +179,21 @@ static inline int hr2di_scene_has_sky(const hr2d_scene *scene) {
 /* The patches that were given; those behind them are images, and the ends of a period. */
 static inline size_t hr2di_scene_cell(const hr2d_scene *scene) {
   return hr2di_symmetry_cell(&scene->symmetry, scene->patches);
+}
+
+/* The bands that wavelengths or weights make; 1 without. */
+static inline size_t hr2di_scene_spectral_bands(const hr2d_scene *scene) {
+  return hr2di_spectrum_bands(&scene->spectrum);
+}
+
+/* See spectrum.h. */
+static inline double hr2di_scene_band_part(const hr2d_scene *scene, double kelvin,
+                                           size_t band) {
+  return hr2di_spectrum_part(&scene->spectrum, kelvin, band);
+}
+static inline double hr2di_scene_band_rise(const hr2d_scene *scene, double kelvin,
+                                           size_t band) {
+  return hr2di_spectrum_rise(&scene->spectrum, kelvin, band);
 }
 
 /* Whether a caller's index is that of a patch, or of an image. */

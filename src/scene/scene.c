@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "scene/band-groups.h"
 #include "scene/patch-light.h"
 #include "scene/scene-impl.h"
 
@@ -41,6 +42,7 @@ void hr2di_scene_clear_commit(hr2d_scene *scene) {
   scene->runs = (hr2di_runs){.alloc = scene->alloc};
   hr2di_scene_clear_plane(scene);
   hr2di_sunlight_clear(&scene->sunlight, &scene->alloc);
+  hr2di_band_groups_clear(scene);
   hr2di_alloc_free(&scene->alloc, scene->dark);
   scene->dark = NULL;
   hr2di_alloc_free(&scene->alloc, scene->other_side);
@@ -60,7 +62,8 @@ void hr2d_scene_destroy(hr2d_scene *scene) {
   hr2di_alloc_free(&scene->alloc, scene->background);
   hr2di_alloc_free(&scene->alloc, scene->sun);
   hr2di_sky_clear(&scene->sky, &scene->alloc);
-  hr2di_alloc_free(&scene->alloc, scene->wavelength);
+  hr2di_alloc_free(&scene->alloc, scene->spectrum.wavelength);
+  hr2di_alloc_free(&scene->alloc, scene->spectrum.weight);
   hr2di_alloc_free(&scene->alloc, scene->gas);
   hr2di_scene_clear_commit(scene);
   const hr2d_allocator alloc = scene->alloc;
@@ -360,11 +363,6 @@ hr2d_status hr2d_scene_find(const hr2d_scene *scene, const char *name, size_t *p
 
 size_t hr2d_scene_other_side(const hr2d_scene *scene, size_t patch) {
   return hr2di_scene_has(scene, patch) ? hr2di_scene_other_side(scene, patch) : HR2D_NO_ELEMENT;
-}
-
-double hr2d_scene_background(const hr2d_scene *scene, size_t band) {
-  if (!hr2di_scene_has_band(scene, band)) return NAN;
-  return hr2di_band_value(scene->background, scene->background_bands, band);
 }
 
 double hr2d_scene_unit(const hr2d_scene *scene) {

@@ -50,6 +50,21 @@ static hr2d_status check_value(hr2d_scene *scene, const hr2d_patch *patch,
   return HR2D_OK;
 }
 
+/* Weights are polynomials, which do not hold at all temperatures. */
+static hr2d_status check_weights(hr2d_scene *scene, const hr2d_patch *patch,
+                                 const hr2d_thermal *t) {
+  size_t band;
+  if (!scene->spectrum.weights) return HR2D_OK;
+  if (t->given != HR2D_HEAT_TEMPERATURE)
+    return refuse(scene, HR2D_EUNSUPPORTED, patch,
+                  "the scene has weights of bands, which need a temperature that is given");
+  if (hr2di_spectrum_knows(&scene->spectrum, t->value, &band)) return HR2D_OK;
+  return hr2di_message_fail(&scene->message, HR2D_ESCENE,
+                            "%s: at %.9g K the weight of band %zu is %.6g, not between 0 and 1",
+                            hr2di_new_patch_label(scene, patch->name).text, t->value, band,
+                            hr2di_scene_band_part(scene, t->value, band));
+}
+
 /* Temperatures of a table. */
 static hr2d_status check_kelvins(hr2d_scene *scene, const hr2d_patch *patch,
                                  const hr2d_thermal *t) {
@@ -74,11 +89,12 @@ static hr2d_status check_counts(hr2d_scene *scene, const hr2d_patch *patch,
     return refuse(scene, HR2D_EINVAL, patch, "emissivity: a number of bands but no values");
   if (t->emissivity_of && (t->emissivity_bands || t->kelvins))
     return refuse(scene, HR2D_EINVAL, patch, "emissivity: both values and a function");
-  if (t->emissivity_bands > 1 && t->emissivity_bands != scene->wavelengths + 1)
-    return refuse(scene, HR2D_ESCENE, patch,
-                  scene->wavelengths
-                      ? "emissivity: the wavelengths of the scene make another number of bands"
-                      : "emissivity has several bands, and the scene has no wavelengths");
+  if (t->emissivity_bands > 1 && t->emissivity_bands != hr2di_scene_spectral_bands(scene))
+    return refuse(
+        scene, HR2D_ESCENE, patch,
+        hr2di_scene_spectral_bands(scene) > 1
+            ? "emissivity: wavelengths or weights of the scene make another number of bands"
+            : "emissivity has several bands, and the scene has no wavelengths or weights");
   return check_kelvins(scene, patch, t);
 }
 
@@ -99,34 +115,19 @@ static hr2d_status check_emissivity(hr2d_scene *scene, const hr2d_patch *patch,
   return HR2D_OK;
 }
 
-double hr2di_scene_band_part(const hr2d_scene *scene, double kelvin, size_t band) {
-  const size_t count = scene->wavelengths;
-  if (!count) return 1;
-  band %= count + 1; /* lights in one scene repeat the bands */
-  return hr2d_black_body_part(kelvin, band ? scene->wavelength[band - 1] : 0,
-                              band < count ? scene->wavelength[band] : HUGE_VAL);
-}
-
-double hr2di_scene_band_rise(const hr2d_scene *scene, double kelvin, size_t band) {
-  const size_t count = scene->wavelengths;
-  band %= count + 1;
-  return hr2di_black_body_rise(kelvin, band ? scene->wavelength[band - 1] : 0,
-                               band < count ? scene->wavelength[band] : HUGE_VAL);
-}
-
 /* Of a given T the emissivity is known: in the place of a table or a function come its values,
    in `value`. */
 static hr2d_status fix_emissivity(hr2d_scene *scene, const hr2d_patch *patch, hr2d_thermal *t,
                                   double *value) {
   if (t->given != HR2D_HEAT_TEMPERATURE || !(t->kelvins || t->emissivity_of)) return HR2D_OK;
-  for (size_t b = 0; b < scene->wavelengths + 1; b++) {
+  for (size_t b = 0; b < hr2di_scene_spectral_bands(scene); b++) {
     value[b] = hr2di_emissivity_of(t, b, t->value);
     if (!(value[b] >= 0 && value[b] <= 1))
       return refuse(scene, HR2D_ECALLBACK, patch,
                     "the function of its emissivity gives a value that is not in [0,1]");
   }
   t->emissivity = value;
-  t->emissivity_bands = scene->wavelengths + 1;
+  t->emissivity_bands = hr2di_scene_spectral_bands(scene);
   t->kelvins = 0;
   t->emissivity_of = NULL;
   return HR2D_OK;
@@ -143,7 +144,7 @@ static void set_light(const hr2d_scene *scene, const hr2d_thermal *t, double *va
                       hr2d_patch *patch) {
   const int flux = t->given == HR2D_HEAT_FLUX;
   if (t->given == HR2D_HEAT_SHIELD) return;
-  const size_t bands = flux ? 1 : scene->wavelengths + 1;
+  const size_t bands = flux ? 1 : hr2di_scene_spectral_bands(scene);
   double *rho = value + bands;
   for (size_t b = 0; b < bands; b++) {
     const double tau = transmittance_of(patch, b);
@@ -164,10 +165,11 @@ static hr2d_status check_transmittance(hr2d_scene *scene, const hr2d_patch *patc
   const size_t bands = patch->transmittance_bands;
   if (bands > 0 && !patch->transmittance)
     return refuse(scene, HR2D_EINVAL, patch, "transmittance: a number of bands but no values");
-  if (bands > 1 && bands != scene->wavelengths + 1)
-    return refuse(scene, HR2D_ESCENE, patch,
-                  "transmittance: the wavelengths of the scene make another number of bands");
-  for (size_t b = 0; b < scene->wavelengths + 1 && bands; b++) {
+  if (bands > 1 && bands != hr2di_scene_spectral_bands(scene))
+    return refuse(
+        scene, HR2D_ESCENE, patch,
+        "transmittance: wavelengths or weights of the scene make another number of bands");
+  for (size_t b = 0; b < hr2di_scene_spectral_bands(scene) && bands; b++) {
     const double tau = transmittance_of(patch, b);
     if (!(tau >= 0 && tau <= 1))
       return refuse(scene, HR2D_ESCENE, patch, "transmittance is not between 0 and 1");
@@ -196,9 +198,10 @@ hr2d_status hr2d_scene_add_thermal(hr2d_scene *scene, const hr2d_patch *given,
   if (!thermal || hr2di_sized_copy(&t, sizeof t, thermal))
     return refuse(scene, HR2D_EINVAL, given, "the struct_size of its hr2d_thermal is not set");
   hr2d_status status = check_value(scene, given, &t);
+  if (!status) status = check_weights(scene, given, &t);
   if (!status) status = check_emissivity(scene, given, &t);
   if (status) return status;
-  const size_t bands = scene->wavelengths + 1;
+  const size_t bands = hr2di_scene_spectral_bands(scene);
   double *value = hr2di_alloc(&scene->alloc, bands, 3 * sizeof *value);
   if (!value) return refuse(scene, HR2D_ENOMEM, given, "out of memory");
   status = fix_emissivity(scene, given, &t, value + 2 * bands);
@@ -219,51 +222,16 @@ hr2d_heat hr2d_scene_heat(const hr2d_scene *scene, size_t patch, double *value) 
   return light->heat;
 }
 
-static int has_heat(const hr2d_scene *scene) {
-  size_t k = 0;
-  while (k < scene->patches && scene->patch[k].light->heat == HR2D_HEAT_NONE) k++;
-  return k < scene->patches;
-}
-
-hr2d_status hr2d_scene_set_wavelengths(hr2d_scene *scene, const double *wavelength,
-                                       size_t count) {
-  if (!scene) return HR2D_EINVAL;
-  if (scene->committed || has_heat(scene))
-    return hr2di_message_fail(&scene->message, HR2D_ESTATE, "wavelengths: the scene %s already",
-                              scene->committed ? "is committed" : "has temperatures or fluxes");
-  if (count && !wavelength)
-    return hr2di_message_fail(&scene->message, HR2D_EINVAL,
-                              "wavelengths: a number of them but no values");
-  if (count > HR2D_MAX_WAVELENGTHS)
-    return hr2di_message_fail(&scene->message, HR2D_ESCENE,
-                              "wavelengths: %zu are too many: at most %d", count,
-                              HR2D_MAX_WAVELENGTHS);
-  for (size_t k = 0; k < count; k++)
-    if (!(wavelength[k] > (k ? wavelength[k - 1] : 0) && isfinite(wavelength[k])))
-      return hr2di_message_fail(&scene->message, HR2D_ESCENE,
-                                "wavelengths: number %zu is not above %s, or not finite", k + 1,
-                                k ? "the one before" : "0");
-  double *copy = count ? hr2di_alloc(&scene->alloc, count, sizeof *copy) : NULL;
-  if (count && !copy)
-    return hr2di_message_fail(&scene->message, HR2D_ENOMEM,
-                              "out of memory for the wavelengths");
-  for (size_t k = 0; k < count; k++) copy[k] = wavelength[k];
-  hr2di_alloc_free(&scene->alloc, scene->wavelength);
-  scene->wavelength = copy;
-  scene->wavelengths = count;
-  return HR2D_OK;
-}
-
 /* The part of commit: bands are known now. */
 hr2d_status hr2di_scene_check_thermal(hr2d_scene *scene, hr2di_watch *watch) {
-  const size_t bands = scene->wavelengths + 1;
+  const size_t bands = hr2di_scene_spectral_bands(scene);
   const hr2d_status status = hr2di_watch_work(watch, scene->patches / 16);
   if (status) return hr2di_scene_fail(scene, status, watch, "");
   if (bands > 1 && scene->bands == 1) scene->bands = bands;
   if (bands > 1 && scene->bands != bands)
     return hr2di_message_fail(&scene->message, HR2D_ESCENE,
-                              "the scene has %zu bands where its wavelengths make %zu",
-                              scene->bands, bands);
+                              "the scene has %zu bands where its %s make %zu", scene->bands,
+                              scene->spectrum.weights ? "weights" : "wavelengths", bands);
   for (size_t k = 0; k < scene->patches; k++) {
     const hr2d_heat heat = scene->patch[k].light->heat;
     if (heat == HR2D_HEAT_NONE || scene->bands == 1) continue;

@@ -64,9 +64,17 @@ static double arriving(const hr2di_gatherer *g, hr2di_passage pass, double value
   return pass.arrives * value + pass.absorbed * g->solution->gas[2 * band];
 }
 
-static hr2di_passage passage_over(const hr2di_gatherer *g, double distance) {
+/* Adds the light of a place at some distance, times a weight; `value` is B there, per band. */
+static void add_place(hr2di_gatherer *g, double distance, double weight, const double *value) {
   const hr2d_scene *scene = g->solution->hierarchy->scene;
-  return hr2di_passage_at(hr2di_scene_section(scene), g->absorption * distance);
+  for (size_t k = 0; k < hr2di_band_groups(scene); k++) {
+    const hr2di_passage pass = hr2di_passage_at(
+        hr2di_scene_section(scene), hr2di_band_group_absorption(scene, k) * distance);
+    for (size_t m = 0; m < hr2di_band_group_size(scene, k); m++) {
+      const size_t b = hr2di_band_group_at(scene, k, m);
+      g->value[b] += weight * arriving(g, pass, value[b], b);
+    }
+  }
 }
 
 /* The light of a panel through gas, with the kernel at the points of a rule. */
@@ -75,11 +83,9 @@ static void add_through_gas(hr2di_gatherer *g, const chord *leaf, const double *
   const size_t bands = g->solution->bands;
   for (size_t q = 0; q < points; q++) {
     const hr2d_point r = hr2di_block_along(leaf->from, leaf->along, 0.5 + 0.5 * xi[q]);
-    const hr2di_passage pass = passage_over(g, sqrt(r.x * r.x + r.y * r.y));
-    for (size_t b = 0; b < bands; b++) {
-      const double value = hr2di_basis_sum(&g->basis, xi[q], coefficient + b, bands);
-      g->value[b] += kernel[q] * arriving(g, pass, value, b);
-    }
+    for (size_t b = 0; b < bands; b++)
+      g->place[b] = hr2di_basis_sum(&g->basis, xi[q], coefficient + b, bands);
+    add_place(g, sqrt(r.x * r.x + r.y * r.y), kernel[q], g->place);
   }
 }
 
@@ -104,8 +110,8 @@ static void add_panel(hr2di_gatherer *g, const chord *leaf, hr2di_span panel,
     factor += kernel[q];
   }
   g->factor += factor;
-  if (g->absorption > 0) add_through_gas(g, leaf, xi, kernel, points, coefficient);
-  for (size_t b = 0; b < bands && g->absorption == 0; b++) {
+  if (g->has_gas) add_through_gas(g, leaf, xi, kernel, points, coefficient);
+  for (size_t b = 0; b < bands && !g->has_gas; b++) {
     double sum = 0;
     for (size_t q = 0; q < points; q++)
       sum += kernel[q] * hr2di_basis_sum(&g->basis, xi[q], coefficient + b, bands);
@@ -118,7 +124,7 @@ static void add_leaf(hr2di_gatherer *g, const chord *leaf, const double *coeffic
                      hr2di_span part) {
   hr2di_panels panels = {.count = 1};
   if (!(part.to > part.from)) return;
-  if (g->solution->order == 1 && g->absorption == 0) {
+  if (g->solution->order == 1 && !g->has_gas) {
     add_constant(g, leaf, coefficient, part);
     return;
   }
@@ -126,8 +132,9 @@ static void add_leaf(hr2di_gatherer *g, const chord *leaf, const double *coeffic
   while (panels.count > 0) {
     const hr2di_span panel = panels.stack[--panels.count];
     double ellipse = hr2di_panel_ellipse(leaf->from, leaf->along, panel);
-    if (g->absorption > 0) {
-      const int deep = hr2di_panel_is_deep(leaf->from, leaf->along, panel, g->absorption);
+    if (g->has_gas) {
+      const int deep =
+          hr2di_panel_is_deep(leaf->from, leaf->along, panel, g->solution->hierarchy->scene);
       if (deep && hr2di_panel_halved(&panels, panel)) continue;
       ellipse = fmin(ellipse, HR2DI_GAS_ELLIPSE);
     }
@@ -215,12 +222,13 @@ static void add_one(hr2di_gatherer *g, const hr2di_visible_interval *seen) {
   const hr2di_span inside = inside_of(seen);
   double distance;
   const double at = hr2di_gatherer_nearest(g, seen->patch, inside.from, inside.to, &distance);
-  const hr2di_passage pass =
-      g->absorption > 0 ? passage_over(g, distance) : (hr2di_passage){1, 0};
-  for (size_t b = 0; b < g->solution->bands; b++) {
-    const double value = hr2d_solution_at(g->solution, seen->patch, at, b);
-    g->value[b] += rest * (g->absorption > 0 ? arriving(g, pass, value, b) : value);
+  for (size_t b = 0; b < g->solution->bands; b++)
+    g->place[b] = hr2d_solution_at(g->solution, seen->patch, at, b);
+  if (g->has_gas) {
+    add_place(g, distance, rest, g->place);
+    return;
   }
+  for (size_t b = 0; b < g->solution->bands; b++) g->value[b] += rest * g->place[b];
 }
 
 /* Sets g->current to the light of a visible interval. */
@@ -353,8 +361,9 @@ hr2d_status hr2di_gatherer_look(hr2di_gatherer *g, size_t patch, double t,
     g->value[b] =
         background ? light_of_sky(g, seen.sky, b) + hr2d_scene_sunlight_at(scene, patch, t, b)
                    : 0;
-  for (size_t b = 0; b < g->solution->bands && g->absorption > 0; b++)
-    g->value[b] += seen.sky * g->solution->gas[2 * b];
+  for (size_t b = 0; b < g->solution->bands && g->has_gas; b++)
+    if (hr2di_scene_scaled_absorption(scene, b) > 0)
+      g->value[b] += seen.sky * g->solution->gas[2 * b];
   add_sky(g, patch, &seen);
   add_far_sky(g, tail.sky, tail.bearing, g->value);
   for (size_t k = 0; k < seen.count; k++) {
@@ -371,13 +380,13 @@ hr2d_status hr2di_gatherer_init(hr2di_gatherer *g, const hr2d_solution *solution
                                 hr2di_watch *watch) {
   *g = (hr2di_gatherer){.solution = solution, .watch = watch};
   g->edge = hr2di_alloc(&solution->alloc, solution->bands,
-                        (3 + HR2DI_SURFACE_ARRAYS) * sizeof *g->edge);
+                        (4 + HR2DI_SURFACE_ARRAYS) * sizeof *g->edge);
   if (!g->edge) return HR2D_ENOMEM;
   g->far = g->edge + solution->bands;
   g->current = g->far + solution->bands;
-  g->surface = g->current + solution->bands;
-  if (hr2di_scene_has_gas(solution->hierarchy->scene))
-    g->absorption = hr2di_scene_scaled_absorption(solution->hierarchy->scene);
+  g->place = g->current + solution->bands;
+  g->surface = g->place + solution->bands;
+  g->has_gas = hr2di_scene_has_gas(solution->hierarchy->scene);
   hr2di_basis_init(&g->basis, solution->order);
   set_rules(g);
   return hr2di_point_viewer_create(hr2di_solution_scene(solution), &solution->alloc, watch,

@@ -29,11 +29,12 @@ typedef struct hr2di_gatherer {
   double *edge;  /* per band: the irradiance of the other patch of a wedge */
   double *far;   /* per band: the irradiance at the farther one of two points */
   double *current; /* per band: that from one visible interval */
+  double *place;   /* per band: B at a place that is seen */
   double *surface; /* E and ρ of both sides of a wedge, the same behind a pane, what is passed,
                       and how it grows; per band */
   int behind;      /* a wedge behind a pane is looked at */
-  double absorption; /* κ of the gas per unit of the scene; 0: there is none */
-  int past;          /* the point sees what is past the ends of a period */
+  int has_gas;     /* between the patches */
+  int past;        /* the point sees what is past the ends of a period */
 } hr2di_gatherer;
 
 /* A patch that touches the point, as one side of a wedge. */

@@ -11,6 +11,7 @@
 #include "base/team.h"
 #include "hierarchy/hierarchy-impl.h"
 #include "scene/frozen-temperatures.h"
+#include "solution/band-solution.h"
 #include "solution/solution-impl.h"
 #include "solve/closure.h"
 #include "solve/equation.h"
@@ -343,6 +344,58 @@ static hr2d_status agree(hr2d_linkset *links, hr2d_status own, hr2d_solution **s
 
 static hr2d_status run(hr2d_linkset *links, const hr2di_equation_how *how,
                        const hr2d_solve_options *given, const double *field,
+                       hr2d_solution **solution);
+
+/* The bands of a group alone. */
+static hr2d_status run_group(hr2d_linkset *links, size_t group, const hr2di_equation_how *how,
+                             const hr2d_solve_options *options, const double *field,
+                             hr2d_solution **solution) {
+  const hr2d_hierarchy *h = links->hierarchy;
+  const size_t items = h->elements * h->order;
+  hr2di_linkset_part part;
+  hr2di_equation_how part_how = *how;
+  hr2d_solve_options part_options = *options;
+  hr2d_solution *start = NULL, *how_start = NULL;
+  double *part_field = NULL;
+  hr2di_linkset_part_begin(&part, links, group);
+  hr2d_status status = hr2di_band_solution_take(options->start, &part.links, group, &start);
+  if (!status) status = hr2di_band_solution_take(how->start, &part.links, group, &how_start);
+  if (!status && field) {
+    part_field =
+        hr2di_alloc(&links->alloc, items, part.hierarchy.scene->bands * sizeof *part_field);
+    status = part_field ? HR2D_OK : HR2D_ENOMEM;
+  }
+  if (part_field) hr2di_band_field_take(h->scene, group, items, field, part_field);
+  part_options.start = start;
+  part_how.start = how_start;
+  if (!status) status = run(&part.links, &part_how, &part_options, part_field, solution);
+  hr2di_alloc_free(&links->alloc, part_field);
+  hr2d_solution_destroy(start);
+  hr2d_solution_destroy(how_start);
+  hr2di_linkset_part_end(&part);
+  return status;
+}
+
+/* Bands that gas absorbs differently have an equation of their own. */
+static hr2d_status run_groups(hr2d_linkset *links, const hr2di_equation_how *how,
+                              const hr2d_solve_options *options, const double *field,
+                              hr2d_solution **solution) {
+  hr2d_solution **made = hr2di_alloc_zero(&links->alloc, links->groups, sizeof *made);
+  hr2d_status status = made ? HR2D_OK : HR2D_ENOMEM;
+  begin(links);
+  for (size_t g = 0; g < links->groups && !status; g++)
+    status = run_group(links, g, how, options, field, &made[g]);
+  if (!status) status = hr2di_band_solution_join(links, made, solution);
+  end(links);
+  for (size_t g = 0; g < links->groups && made; g++) hr2d_solution_destroy(made[g]);
+  hr2di_alloc_free(&links->alloc, made);
+  if (status == HR2D_ENOMEM)
+    hr2di_message_fail(&links->message, status, "out of memory for the solve");
+  return status;
+}
+
+static hr2d_status run(hr2d_linkset *links, const hr2di_equation_how *how,
+                       const hr2d_solve_options *given, const double *field,
                        hr2d_solution **solution) {
   hr2d_solve_options options = HR2D_SOLVE_OPTIONS_INIT;
   if (hr2di_sized_copy(&options, sizeof options, given))
@@ -350,6 +403,7 @@ static hr2d_status run(hr2d_linkset *links, const hr2di_equation_how *how,
   hr2d_status status = check_options(links, &options, field != NULL);
   if (status) return status;
   options.threads = (unsigned)hr2di_team_threads(options.threads);
+  if (links->groups > 1) return run_groups(links, how, &options, field, solution);
   const hr2d_scene *scene = links->hierarchy->scene;
   hr2d_scene *frozen = NULL;
   hr2di_watch watch;

@@ -279,9 +279,9 @@ static void empty(hr2d_scene *scene) {
   scene->background_bands = 0;
   hr2di_scene_take_sun(scene, NULL, 0);
   hr2di_sky_clear(&scene->sky, &scene->alloc);
-  hr2di_alloc_free(&scene->alloc, scene->wavelength);
-  scene->wavelength = NULL;
-  scene->wavelengths = 0;
+  hr2di_alloc_free(&scene->alloc, scene->spectrum.wavelength);
+  scene->spectrum.wavelength = NULL;
+  scene->spectrum.wavelengths = 0;
   scene->symmetry.mirrors = 0;
   scene->symmetry.period = (hr2d_point){0, 0};
   scene->committed = 0;
@@ -291,8 +291,9 @@ static void empty(hr2d_scene *scene) {
 
 hr2d_status hr2d_state_read_scene(hr2d_scene *scene, hr2d_read_fn read, void *ctx) {
   if (!scene || !read) return HR2D_EINVAL;
-  if (scene->committed || scene->patches > 0 || scene->background || scene->wavelengths ||
-      scene->sun || scene->sky.pieces || hr2di_symmetry_wanted(&scene->symmetry))
+  if (scene->committed || scene->patches > 0 || scene->background ||
+      hr2di_scene_spectral_bands(scene) > 1 || scene->gas || scene->sun || scene->sky.pieces ||
+      hr2di_symmetry_wanted(&scene->symmetry))
     return hr2di_message_fail(&scene->message, HR2D_ESTATE, "the scene is not empty");
   loading l = {.scene = scene};
   hr2di_scene_watch(scene, &l.watch, NULL, NULL, "state");

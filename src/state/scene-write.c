@@ -36,7 +36,7 @@ static int has_symmetry(const hr2d_scene *scene) {
 
 static uint64_t count_bytes(const hr2d_scene *scene) {
   const size_t mirrors = scene->symmetry.mirrors, numbers = has_panes(scene) ? 6 : 5;
-  uint64_t bytes = 8 * (scene->background_bands + scene->wavelengths + 1);
+  uint64_t bytes = 8 * (scene->background_bands + hr2di_scene_spectral_bands(scene));
   if (has_symmetry(scene))
     bytes += 8 * (HR2DI_SCENE_PERIOD_DOUBLES + HR2DI_SCENE_MIRROR_DOUBLES * (uint64_t)mirrors);
   bytes += 8 * HR2DI_SCENE_SUN_DOUBLES * (uint64_t)scene->sun_bands;
@@ -104,7 +104,7 @@ static void put_head(hr2di_writer *w, const hr2d_scene *scene) {
   hr2di_writer_word(w, count_bytes(scene));
   hr2di_writer_word(w, forced_effects(scene));
   hr2di_writer_word(w, scene->background_bands);
-  hr2di_writer_word(w, scene->wavelengths);
+  hr2di_writer_word(w, scene->spectrum.wavelengths);
   if (!has_day(scene) && !has_symmetry(scene)) return;
   hr2di_writer_word(w, scene->sun_bands);
   hr2di_writer_word(w, scene->sky.pieces);
@@ -121,7 +121,8 @@ static void put_symmetry(hr2di_writer *w, const hr2di_symmetry *s) {
 static void put_lights(hr2di_writer *w, const hr2d_scene *scene) {
   for (size_t k = 0; k < scene->background_bands; k++)
     hr2di_writer_double(w, scene->background[k]);
-  for (size_t k = 0; k < scene->wavelengths; k++) hr2di_writer_double(w, scene->wavelength[k]);
+  for (size_t k = 0; k < scene->spectrum.wavelengths; k++)
+    hr2di_writer_double(w, scene->spectrum.wavelength[k]);
   for (size_t k = 0; k < scene->sun_bands; k++) {
     hr2di_writer_double(w, scene->sun[k].direction.x);
     hr2di_writer_double(w, scene->sun[k].direction.y);
@@ -139,7 +140,7 @@ static void put_lights(hr2di_writer *w, const hr2d_scene *scene) {
 hr2d_status hr2d_state_write_scene(const hr2d_scene *scene, hr2d_write_fn write, void *ctx) {
   if (!scene || !write) return HR2D_EINVAL;
   if (!scene->committed) return HR2D_ESTATE;
-  if (hr2di_scene_has_gas(scene)) return HR2D_EUNSUPPORTED;
+  if (hr2di_scene_has_gas(scene) || scene->spectrum.weights) return HR2D_EUNSUPPORTED;
   const size_t patches = hr2di_scene_cell(scene);
   const int panes = has_panes(scene);
   for (size_t k = 0; k < patches; k++)

@@ -12,8 +12,8 @@
 
 /* Where patches of given flux have temperatures, E and ρ do not tell their spectra. */
 static hr2di_hash add_spectra(hr2di_hash hash, const hr2d_scene *scene) {
-  for (size_t k = 0; k < scene->wavelengths; k++)
-    hash = hr2di_hash_double(hash, scene->wavelength[k]);
+  for (size_t k = 0; k < scene->spectrum.wavelengths; k++)
+    hash = hr2di_hash_double(hash, scene->spectrum.wavelength[k]);
   for (size_t k = 0; k < scene->patches; k++)
     for (size_t b = 0; b < scene->bands && hr2di_scene_has_flux(scene, k); b++)
       hash = hr2di_hash_double(hash, hr2d_scene_emissivity(scene, k, b));

@@ -47,6 +47,7 @@ BEGIN {
   good["scene_parse.text"] = "s->file"; good["scene_parse.size"] = "strlen(s->file)"
   good["scene_read.path"] = "s->path"; good["state_read_scene.scene"] = "s->empty"
   good["scene_commit.scene"] = good["scene_set_wavelengths.scene"] = "s->drawn"
+  good["scene_set_weights.scene"] = "s->drawn"
   good["scene_set_period.period"] = "((hr2d_point){9, 0})"
   good["solution_element.element"] = good["element_level.element"] = "0"
   good["element_parent.element"] = "0"; good["hierarchy_leaf.patch"] = "1"
@@ -82,7 +83,7 @@ BEGIN {
 
   # Numbers of items of an array: too large a one cannot be noticed.
   n = split("count size bands pieces room important_count emission_bands reflectance_bands " \
-    "transmittance_bands absorption_bands emissivity_bands kelvins order columns rows first " \
+    "transmittance_bands absorption_bands emissivity_bands kelvins terms order columns rows first " \
     "from to", list, " ")
   for (k = 1; k <= n; k++) counts[list[k]] = 1
   # A number is as good as any other; or the value of a wrong argument is a text all the same.

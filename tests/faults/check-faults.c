@@ -70,6 +70,18 @@ static hr2d_status add_table(fault_stage *s, uint64_t *sum) {
   return fault_mix_stage(s, sum, status);
 }
 
+/* Weights of two bands, one after the other. */
+static hr2d_status set_weights(fault_stage *s, uint64_t *sum) {
+  static const double weight[] = {.5, -1e-4, .25, 0};
+  const hr2d_patch patch = {.a = {3, 3}, .b = {4, 5}};
+  const hr2d_thermal thermal = {
+      .struct_size = sizeof thermal, .given = HR2D_HEAT_TEMPERATURE, .value = 500};
+  hr2d_status status = hr2d_scene_set_weights(s->scene, weight, 1, 2);
+  if (!status) status = hr2d_scene_set_weights(s->scene, weight, 2, 2);
+  if (!status) status = hr2d_scene_add_thermal(s->scene, &patch, &thermal, NULL);
+  return fault_mix_stage(s, sum, status);
+}
+
 static hr2d_status add_function(fault_stage *s, uint64_t *sum) {
   const hr2d_patch patch = {.a = {3, 3}, .b = {4, 5}};
   const hr2d_thermal thermal = {.struct_size = sizeof thermal,
@@ -438,6 +450,7 @@ START_TEST(scenes) {
   PLAY("scene_add to others", {.depth = DEPTH_FILLED, .plan = PLAN_ROOM}, add_patch, of_scene,
        0);
   PLAY("scene_add_thermal", {.depth = DEPTH_SCENE}, add_thermal, of_scene, 0);
+  PLAY("scene_set_weights", {.depth = DEPTH_SCENE}, set_weights, of_scene, 0);
   PLAY("scene_add_thermal, table", {.depth = DEPTH_SCENE}, add_table, of_scene, 0);
   PLAY("scene_add_thermal, function", {.depth = DEPTH_SCENE}, add_function, of_scene, 0);
   PLAY("scene_add_gas", {.depth = DEPTH_SCENE}, add_gas, of_scene, 0);

@@ -439,8 +439,8 @@ static const char *const short_calls[] = {
     "hr2d_scene_create", "hr2d_scene_add", "hr2d_scene_add_thermal", "hr2d_scene_add_gas",
     "hr2d_scene_add_mirror", "hr2d_scene_set_background", "hr2d_scene_set_period",
     "hr2d_scene_set_sky", "hr2d_scene_set_sun", "hr2d_scene_set_wavelengths",
-    "hr2d_scene_force", "hr2d_scene_find", "hr2d_hierarchy_create", "hr2d_hierarchy_divide",
-    "hr2d_linkset_create", "hr2d_linkset_read", "hr2d_solution_adopt",
+    "hr2d_scene_set_weights", "hr2d_scene_force", "hr2d_scene_find", "hr2d_hierarchy_create",
+    "hr2d_hierarchy_divide", "hr2d_linkset_create", "hr2d_linkset_read", "hr2d_solution_adopt",
     "hr2d_solution_temperatures",
     /* steps over patches */
     "hr2d_enclosure_error", "hr2d_solution_gas",

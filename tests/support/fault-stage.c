@@ -81,12 +81,13 @@ static void add_mirror(hr2d_scene *scene, double x) {
   ck_assert_int_eq(hr2d_scene_add_mirror(scene, (hr2d_segment){{x, 0}, {x, 1}}), HR2D_OK);
 }
 
-static void add_gas(hr2d_scene *scene) {
-  static const double kappa = .5, hot = 2;
+static void add_gas(hr2d_scene *scene, size_t bands) {
+  static const double kappa[2] = {.5, .25}, hot = 2;
   hr2d_gas gas = HR2D_GAS_INIT;
-  gas.absorption = &kappa;
+  gas.absorption = kappa;
+  gas.absorption_bands = bands;
   gas.emission = &hot;
-  gas.absorption_bands = gas.emission_bands = 1;
+  gas.emission_bands = 1;
   ck_assert_int_eq(hr2d_scene_add_gas(scene, &gas, NULL), HR2D_OK);
 }
 
@@ -112,11 +113,11 @@ static void fill(hr2d_scene *scene, fault_plan plan) {
     break;
   case PLAN_GAS:
     fill(scene, PLAN_ROOM);
-    add_gas(scene);
+    add_gas(scene, 2);
     break;
   case PLAN_OPEN_GAS:
     fill(scene, PLAN_PAIR);
-    add_gas(scene);
+    add_gas(scene, 1);
     break;
   case PLAN_CROSSING:
     add_room(scene, dim, 1);

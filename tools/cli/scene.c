@@ -158,7 +158,9 @@ double scene_longest_patch(const hr2d_scene *scene) {
 }
 
 int scene_has_gas(const hr2d_scene *scene) {
-  return hr2d_scene_absorption(scene, 0, 0) > 0;
+  size_t band = 0;
+  while (band < hr2d_scene_bands(scene) && !(hr2d_scene_absorption(scene, 0, band) > 0)) band++;
+  return band < hr2d_scene_bands(scene);
 }
 
 int scene_complain(const options *o, const hr2d_scene *scene, hr2d_status status) {

@@ -225,7 +225,10 @@ static void print_gas(const run *r) {
       continue;
     char title[32] = "gas";
     if (bands > 1) snprintf(title, sizeof title, "gas %zu", b);
-    printf("%-9s emission %.6g, gives %.6g to the patches\n", title, emission, heat);
+    if (hr2d_scene_absorption(r->scene, 0, b) > 0)
+      printf("%-9s emission %.6g, gives %.6g to the patches\n", title, emission, heat);
+    else
+      printf("%-9s lets all light of this band through\n", title);
   }
 }
 
