@@ -175,8 +175,7 @@ class Scene:
 
         >>> scene = Scene()
         >>> scene.set_weights([[.5, -1e-4], [0, 2e-4]])
-        >>> scene.add([(0, 0), (1, 0)], temperature=1000)
-        slice(0, 1, None)
+        >>> patches = scene.add([(0, 0), (1, 0)], temperature=1000)
         >>> (scene.emission[0] / black_body(1000)).round(12)
         array([0.4, 0.4, 0.2])
         """
