@@ -39,15 +39,15 @@
  * (4/π)Ki₃; the gas there gives 4κ(E_g − M) per area of the section, or πκ(E_g − M) in a flat
  * world, which is ∇·q for a code of fluid dynamics. Nodes of a grid are all exact.
  *
- * **What goes through gas.** hr2d_solve(), hr2d_solve_to() to averages, what is read from their
- * solutions, and points as above. In a scene with gas these return HR2D_EUNSUPPORTED, as the
- * whole list of what this version does not do: the oracles `l1`, `l1-grid` and `bounds`; points
- * as the norm of a target, errors of fields, and fields with a period; view factors and
- * exchange matrices, operators, enclosures, states, shares, and predictions. So does
- * hr2d_scene_commit() if the scene has light of a background, a sky or a sun in a band that
- * gas absorbs, a period of which images are cut off, more than 256 different κ, patches of
- * given flux in several bands, or a gas of given heat in several bands; and hr2d_solve() if
- * patches see the backs of others. Far pairs of patches are not clustered.
+ * **What goes through gas.** hr2d_solve(), hr2d_solve_to(), what is read from their solutions,
+ * and points as above, with their errors. In a scene with gas these return HR2D_EUNSUPPORTED,
+ * as the whole list of what this version does not do: the oracles `l1`, `l1-grid` and `bounds`;
+ * fields with a period; view factors and exchange matrices, operators, enclosures, states,
+ * shares, and predictions. So does hr2d_scene_commit() if the scene has light of a background,
+ * a sky or a sun in a band that gas absorbs, a period of which images are cut off, more than
+ * 256 different κ, patches of given flux in several bands, or a gas of given heat in several
+ * bands; and hr2d_solve() if patches see the backs of others. Far pairs of patches are not
+ * clustered.
  *
  * Exchange areas of links (hr2d_link::exchange_area) are those without gas.
  * @{

@@ -110,7 +110,6 @@ hr2d_status hr2d_solution_error(const hr2d_solution *solution, const hr2d_target
   hr2d_target target;
   if (!solution) return HR2D_EINVAL;
   const hr2d_scene *scene = solution->hierarchy->scene;
-  if (sup && hr2di_scene_has_gas(scene)) return HR2D_EUNSUPPORTED;
   hr2d_status status = hr2di_target_init(&target, scene, how, FINEST);
   target.points = sup != NULL;
   if (!status)

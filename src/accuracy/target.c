@@ -20,8 +20,7 @@ static hr2d_status check(const hr2d_scene *scene, const hr2d_target *t) {
   if (!t->important && t->important_count > 0) return HR2D_EINVAL;
   for (size_t k = 0; k < t->important_count; k++)
     if (t->important[k] >= hr2di_scene_cell(scene)) return HR2D_EINVAL;
-  if (hr2di_scene_has_gas(scene) && (t->norm == HR2D_NORM_SUP || t->points || t->share))
-    return HR2D_EUNSUPPORTED;
+  if (hr2di_scene_has_gas(scene) && t->share) return HR2D_EUNSUPPORTED;
   return t->norm == HR2D_NORM_AVERAGE || t->norm == HR2D_NORM_SUP ? HR2D_OK : HR2D_EINVAL;
 }
 

@@ -5,6 +5,7 @@
 #include <hr2d/field.h>
 #include <math.h>
 
+#include "base/alloc.h"
 #include "base/pi.h"
 #include "base/sized-struct.h"
 #include "base/team.h"
@@ -55,6 +56,20 @@ static hr2d_status find_errors(hr2di_field_call *f, const hr2d_solution *solutio
                            &f->source.element_error);
 }
 
+/* E_g of a gas of given heat is a mean of B, and so it is off by no more than B. */
+static hr2d_status find_gas_error(hr2di_field_call *f) {
+  hr2di_light_source *of = &f->source;
+  const hr2d_scene *scene = hr2di_solution_scene(of->solution);
+  const double *error = of->patch_error ? of->patch_error : of->element_error;
+  const size_t bands = of->solution->bands;
+  if (!error || !hr2di_scene_gas_is_free(scene)) return HR2D_OK;
+  of->gas_error = hr2di_alloc_zero(&of->leaves.alloc, bands, sizeof *of->gas_error);
+  /* The first elements are the patches. */
+  for (size_t k = 0; k < hr2di_scene_cell(scene) * bands && of->gas_error; k++)
+    of->gas_error[k % bands] = fmax(of->gas_error[k % bands], error[k]);
+  return of->gas_error ? HR2D_OK : HR2D_ENOMEM;
+}
+
 /* Whether there is a normal for each point, if irradiances are wanted. */
 static int has_normals(const hr2di_field_call *f, size_t count) {
   const hr2d_field_options *o = &f->options;
@@ -74,9 +89,7 @@ hr2d_status hr2di_field_open(hr2di_field_call *f, const hr2d_solution *solution,
   if (!status) status = hr2di_sized_copy(&f->values, sizeof f->values, values);
   if (!status && !has_normals(f, count)) status = HR2D_EINVAL;
   if (status) return status;
-  if (hr2di_scene_has_gas(scene) &&
-      (scene->symmetry.by.periodic || (f->options.patch_error && f->values.error)))
-    return HR2D_EUNSUPPORTED;
+  if (hr2di_scene_has_gas(scene) && scene->symmetry.by.periodic) return HR2D_EUNSUPPORTED;
   hr2di_scene_watch(scene, &f->watch, f->options.progress, f->options.progress_ctx, "field");
   status = hr2di_field_scene_init(&f->scene, scene, &f->watch);
   f->opened = 1;
@@ -86,6 +99,7 @@ hr2d_status hr2di_field_open(hr2di_field_call *f, const hr2d_solution *solution,
   f->source.wants_flux = f->values.flux != NULL;
   f->source.lit_sky = hr2di_field_lit_sky(scene);
   f->source.patch_error = f->options.patch_error;
+  if (!status) status = find_gas_error(f);
   f->team = (hr2di_field_team){.scene = &f->scene.scene,
                                .watch = &f->watch,
                                .threads = (unsigned)hr2di_team_threads(f->options.threads),

@@ -47,6 +47,7 @@ hr2d_status hr2di_light_source_init(hr2di_light_source *of, const hr2d_solution 
 void hr2di_light_source_clear(hr2di_light_source *of) {
   hr2di_alloc_free(&of->leaves.alloc, of->far);
   hr2di_alloc_free(&of->leaves.alloc, of->element_error);
+  hr2di_alloc_free(&of->leaves.alloc, of->gas_error);
   hr2di_leaves_clear(&of->leaves);
 }
 

@@ -216,6 +216,8 @@ static double sky_of(const hr2di_light_source *of, size_t band) {
 void hr2di_light_add(hr2di_light_sum *sum, const hr2di_polygon_arc *s) {
   const hr2di_light_source *of = sum->of;
   const size_t bands = of->solution->bands;
+  for (size_t b = 0; b < bands && of->gas_error; b++)
+    sum->error[b] += s->angle * of->gas_error[b];
   if (s->patch != HR2DI_ROUND_SKY) {
     see_end(sum, s->right);
     see_end(sum, s->left);

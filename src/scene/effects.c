@@ -112,8 +112,12 @@ static void analyse_medium(hr2d_scene *scene) {
     set(scene, HR2D_EFFECT_MEDIUM, 0, "no gas absorbs");
     return;
   }
-  set(scene, HR2D_EFFECT_MEDIUM, 1, "the gas absorbs %g per length",
-      scene->gas->given_range.most);
+  const hr2di_gas_range range = scene->gas->given_range;
+  if (range.least < range.most)
+    set(scene, HR2D_EFFECT_MEDIUM, 1, "the gas absorbs %g to %g per length", range.least,
+        range.most);
+  else
+    set(scene, HR2D_EFFECT_MEDIUM, 1, "the gas absorbs %g per length", range.most);
   if (hr2di_scene_gas_emits(scene) && !scene->effect[HR2D_EFFECT_EMISSION].on)
     set(scene, HR2D_EFFECT_EMISSION, 1, "the gas emits");
 }

@@ -479,7 +479,13 @@ check "info tells the gas" grep -q '^gas           absorbs 0.2 per length$' "$wo
 through='the scene has a gas, "medium", through which this version does not compute'
 expect 1 "$through" factors "$gas"
 expect 1 "$through" cost "$gas"
-expect 1 "$through" solve "$gas" --target-error 1e-3 --norm sup
+expect 1 "$through" study "$gas" --oracle l1
+succeeds solve "$gas" --target-error 1e-3 --norm sup
+check "errors at points go through gas" grep -q '^          at points about' "$work/out"
+succeeds info "$scenes/furnace-flue-gas.geojson"
+check "info tells all absorptions" grep -q '^gas           absorbs 0 to 35.613 per length$' "$work/out"
+succeeds solve "$scenes/furnace-flue-gas.geojson" --target-error 1e-3
+check "a clear band is told" grep -q '^gas 0     lets all light of this band through$' "$work/out"
 sed 's/"emission": 1,//' "$narrow" >"$work/dark.geojson"
 hr2d study "$narrow" --quiet --csv "$work/one.csv"
 hr2d study "$work/dark.geojson" --quiet --csv "$work/dark.csv"

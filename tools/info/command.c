@@ -64,9 +64,18 @@ static void print_background(const hr2d_scene *scene) {
   puts("");
 }
 
+/* κ of all bands. */
 static void print_gas(const hr2d_scene *scene) {
-  if (hr2d_scene_gases(scene))
-    printf("gas           absorbs %.6g per length\n", hr2d_scene_absorption(scene, 0, 0));
+  double least = HUGE_VAL, most = 0;
+  if (!hr2d_scene_gases(scene)) return;
+  for (size_t b = 0; b < hr2d_scene_bands(scene); b++) {
+    least = fmin(least, hr2d_scene_absorption(scene, 0, b));
+    most = fmax(most, hr2d_scene_absorption(scene, 0, b));
+  }
+  if (least < most)
+    printf("gas           absorbs %.6g to %.6g per length\n", least, most);
+  else
+    printf("gas           absorbs %.6g per length\n", most);
 }
 
 static void print_symmetry(const hr2d_scene *scene) {

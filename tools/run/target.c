@@ -24,7 +24,7 @@ static hr2d_target make_target(const run *r, progress *p) {
   hr2d_target target = HR2D_TARGET_INIT;
   target.error = o->target_error > 0 ? o->target_error : HR2D_SMALLEST_ERROR;
   target.norm = o->norm;
-  target.points = options_want_points(o) && !scene_has_gas(r->scene);
+  target.points = options_want_points(o);
   target.important = run_important(r);
   target.important_count = o->importance.count;
   target.floor = o->floor;
@@ -92,7 +92,7 @@ static hr2d_status compare(run *r, progress *p) {
   how.progress = progress_show;
   how.progress_ctx = p;
   how.share = r->share;
-  how.points = options_want_points(r->options) && !scene_has_gas(r->scene);
+  how.points = options_want_points(r->options);
   for (how.error = 1e-6; how.error > 0.5e-12; how.error *= 1e-3) {
     hr2d_account found;
     const hr2d_status status = hr2d_solution_account(r->solution, &how, &found);

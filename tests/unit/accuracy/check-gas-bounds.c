@@ -79,6 +79,7 @@ static hr2d_solution *solve_to(const hr2d_scene *scene, double error, hr2d_accou
   hr2d_target target = HR2D_TARGET_INIT;
   hr2d_solution *solution = NULL;
   target.error = error;
+  target.points = 1;
   const hr2d_status status = hr2d_solve_to(scene, &target, &solution, account);
   ck_assert_msg(!status || status == HR2D_EACCURACY, "%s: %s", hr2d_strerror(status),
                 account->reason);
@@ -97,8 +98,60 @@ static double worst_of(const hr2d_solution *s, const hr2d_solution *fine, size_t
   return worst;
 }
 
+/* The largest error at points, relative to the largest value there; `of` gathers B or H. */
+enum { POINTS = 23 };
+typedef hr2d_status (*gather_fn)(const hr2d_solution *, size_t, const double *, size_t,
+                                 double *);
+
+static double worst_point_of(const hr2d_solution *s, const hr2d_solution *fine, size_t patches,
+                             gather_fn of) {
+  double t[POINTS], largest = 0, worst = 0;
+  for (int k = 0; k < POINTS; k++)
+    t[k] = k < 6    ? ldexp(1, -4 * k - 4)
+           : k < 12 ? 1 - ldexp(1, -4 * (k - 6) - 4)
+                    : (k - 11) / 12.;
+  for (size_t p = 0; p < patches; p++) {
+    double is[POINTS], right[POINTS];
+    ck_assert_int_eq(of(s, p, t, POINTS, is), HR2D_OK);
+    ck_assert_int_eq(of(fine, p, t, POINTS, right), HR2D_OK);
+    for (int k = 0; k < POINTS; k++) {
+      largest = fmax(largest, right[k]);
+      worst = fmax(worst, fabs(is[k] - right[k]));
+    }
+  }
+  return largest > 0 ? fmax(worst / largest - 1e-10, 0) : 0;
+}
+
+/* The largest error of M between places of two patches, as a part of its bound; what sees no
+   light has none. */
+static double worst_field_of(const hr2d_solution *s, const hr2d_solution *fine,
+                             const hr2d_scene *scene, const hr2d_account *account) {
+  const size_t patches = hr2d_scene_patches(scene);
+  hr2d_field_options options = HR2D_FIELD_OPTIONS_INIT;
+  hr2d_field_values values = HR2D_FIELD_VALUES_INIT;
+  double worst = 0;
+  for (size_t k = 0; k < patches; k++) {
+    const hr2d_segment p = hr2d_scene_segment(scene, k),
+                       q = hr2d_scene_segment(scene, (k + 1) % patches);
+    const hr2d_point at = {(2 * p.a.x + p.b.x + 3 * q.b.x) / 6,
+                           (2 * p.a.y + p.b.y + 3 * q.b.y) / 6};
+    double is, right, error;
+    options.account = account;
+    values.mean = &is;
+    values.error = &error;
+    ck_assert_int_eq(hr2d_field_at(s, &at, 1, &options, &values), HR2D_OK);
+    options.account = NULL;
+    values.mean = &right;
+    values.error = NULL;
+    ck_assert_int_eq(hr2d_field_at(fine, &at, 1, &options, &values), HR2D_OK);
+    const double off = fabs(is - right) - 1e-10 * right;
+    if (off > 0) worst = fmax(worst, off / error);
+  }
+  return worst;
+}
+
 START_TEST(bounds_hold_in_gas) {
-  double worst = 0, seen = 0;
+  double worst = 0, point = 0, seen = 0;
   size_t solves = 0, reached = 0;
   for (int n = 0; n < test_count(600); n++) {
     hr2d_account account;
@@ -115,7 +168,18 @@ START_TEST(bounds_hold_in_gas) {
                     error, b, account.average.bound);
       ck_assert_msg(h <= account.irradiance.bound, "%d to %g: H is off by %g, at most %g", n,
                     error, h, account.irradiance.bound);
+      const double pb = worst_point_of(s, fine, patches, hr2d_solution_gather);
+      const double ph = worst_point_of(s, fine, patches, hr2d_solution_gather_irradiance);
+      ck_assert_msg(pb <= account.sup.bound, "%d to %g: B at a point is off by %g, at most %g",
+                    n, error, pb, account.sup.bound);
+      ck_assert_msg(ph <= account.irradiance_sup.bound,
+                    "%d to %g: H at a point is off by %g, at most %g", n, error, ph,
+                    account.irradiance_sup.bound);
+      const double field = worst_field_of(s, fine, scene, &account);
+      ck_assert_msg(field <= 1, "%d to %g: M is off by %g of its bound", n, error, field);
+      point = fmax(point, field);
       worst = fmax(worst, fmax(b / account.average.bound, h / account.irradiance.bound));
+      point = fmax(point, fmax(pb / account.sup.bound, ph / account.irradiance_sup.bound));
       seen = fmax(seen, h);
       solves++;
       reached += fmax(account.average.estimate, account.irradiance.estimate) <= error;
@@ -124,8 +188,10 @@ START_TEST(bounds_hold_in_gas) {
     hr2d_solution_destroy(fine);
     hr2d_scene_destroy(scene);
   }
-  printf("errors are at most %.2f of their bounds; %zu of %zu targets are reached\n", worst,
-         reached, solves);
+  printf("errors are at most %.2f of their bounds, at points and in fields %.2f; %zu of %zu "
+         "targets are "
+         "reached\n",
+         worst, point, reached, solves);
   ck_assert_uint_ge(100 * reached, 99 * solves);
   ck_assert_double_lt(worst, 1);
   ck_assert_double_gt(seen, 1e-5); /* negative control: there were errors to bound */
