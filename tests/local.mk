@@ -297,6 +297,7 @@ tests_adversary_adversary_SOURCES = \
 	tests/adversary/kinds-day.c \
 	tests/adversary/kinds-extreme.c \
 	tests/adversary/kinds-open.c \
+	tests/adversary/kinds-gas.c \
 	tests/adversary/kinds-rooms.c \
 	tests/adversary/kinds-symmetry.c \
 	tests/adversary/law.c tests/adversary/law.h \

@@ -18,7 +18,7 @@
 #include "adversary/shrink.h"
 #include "adversary/transform.h"
 
-enum { KINDS = 64, LAWS = 16 };
+enum { KINDS = 128, LAWS = 16 };
 
 typedef struct settings {
   unsigned long seed, runs, lines;
@@ -249,6 +249,10 @@ static int run_all(const settings *s) {
   size_t kinds = adv_kinds(), laws = 0;
   unsigned long lines = 0, done = 0, violated = 0;
   double start = now();
+  if (kinds > KINDS) {
+    fputs("adversary: more kinds than its table has rows\n", stderr);
+    return 2;
+  }
   for (size_t k = 0; k < kinds; k++) t.kind[k].name = adv_kind_at(k)->name;
   for (; adv_laws[laws].name; laws++) t.law[laws].name = adv_laws[laws].name;
   for (unsigned long seed = s->seed; done < s->runs; seed++)

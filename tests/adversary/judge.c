@@ -85,13 +85,14 @@ static void nothing_is_negative(const adv_answer *a, adv_outcome *outcome) {
 static void power_is_balanced(const adv_answer *a, adv_outcome *outcome, size_t band) {
   const adv_scene *s = a->scene;
   double coordinate = ldexp(1, adv_bits(s) + s->exponent);
+  const int shut = s->closed && !adv_has_gas(s); /* light escapes into gas */
   double emitted = 0, errors = 0, rows = 0, gained = 0;
   for (size_t k = 0; k < s->count; k++) {
     double length = adv_length(s, k), rho = s->patch[k].reflectance[band];
     double level = fmax(a->brightest[ADV_B][band], adv_outside(s, band));
     emitted += length * s->patch[k].emission[band];
     errors += length * ((1 - rho) * adv_average_error(a, ADV_H, k, band) +
-                        (s->closed ? 0 : adv_average_error(a, ADV_B, k, band)));
+                        (shut ? 0 : adv_average_error(a, ADV_B, k, band)));
     if (s->pieces) gained += length * adv_average_error(a, ADV_H, k, band);
     rows += level * (1e-13 * length + (s->pierced ? 0x1p-28 : 128 * ROUNDING) * coordinate);
   }
@@ -109,7 +110,7 @@ static void power_is_balanced(const adv_answer *a, adv_outcome *outcome, size_t 
   if (!(p.escaped >= -rows && p.received >= -rows - gained && p.absorbed >= 0))
     adv_note(outcome, ADV_POWER, INFINITY, "absorbed %g, received %g, escaped %g", p.absorbed,
              p.received, p.escaped);
-  if (s->closed && !(p.escaped <= rows && p.received <= rows))
+  if (shut && !(p.escaped <= rows && p.received <= rows))
     adv_note(outcome, ADV_POWER, share(fmax(p.escaped, p.received), rows),
              "closed, but received %g, escaped %g", p.received, p.escaped);
 }

@@ -6,8 +6,8 @@
 
 #define PI 3.14159265358979323846
 
-static const adv_kind *const tables[] = {adv_rooms, adv_extreme, adv_open, adv_day,
-                                         adv_symmetry};
+static const adv_kind *const tables[] = {adv_rooms, adv_extreme,  adv_open,
+                                         adv_day,   adv_symmetry, adv_gases};
 
 const adv_kind *adv_kind_at(size_t k) {
   for (size_t t = 0; t < sizeof tables / sizeof *tables; t++)

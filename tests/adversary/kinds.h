@@ -17,6 +17,7 @@ extern const adv_kind adv_extreme[];  /* closed, extreme proportions, reflectanc
 extern const adv_kind adv_open[];     /* light leaves or comes in */
 extern const adv_kind adv_day[];      /* under a sun, or a sky in pieces */
 extern const adv_kind adv_symmetry[]; /* with mirrors, or a period */
+extern const adv_kind adv_gases[];    /* full of gas */
 
 /* The number of kinds, and each of them. */
 size_t adv_kinds(void);

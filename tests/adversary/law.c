@@ -136,7 +136,7 @@ static void emissions_superpose(adv_trial *trial) {
   for (size_t band = 0; band < trial->scene->bands; band++) {
     for (size_t k = 0; k < trial->scene->count; k++)
       trial->copy[adv_int(&trial->random, 0, 1)].patch[k].emission[band] = 0;
-    trial->copy[1].background[band] = 0;
+    trial->copy[1].background[band] = trial->copy[1].hot[band] = 0;
     part_day(trial, band);
   }
   transform(trial, &trial->copy[1]);
@@ -167,7 +167,7 @@ static void exchange_is_reciprocal(adv_trial *trial) {
     trial->copy[c] = *trial->scene;
     for (size_t band = 0; band < trial->scene->bands; band++) {
       for (int k = 0; k < n; k++) trial->copy[c].patch[k].emission[band] = k == end[c];
-      trial->copy[c].background[band] = 0;
+      trial->copy[c].background[band] = trial->copy[c].hot[band] = 0;
       trial->copy[c].sun[band].irradiance = 0;
     }
     trial->copy[c].pieces = 0;
@@ -194,7 +194,8 @@ static int is_closed(const adv_scene *scene) {
   return scene->closed;
 }
 
-/* E = 1 − ρ in a closed room, whatever the background: B = H = 1 everywhere. */
+/* E = 1 − ρ in a closed room, whatever the background: B = H = 1 everywhere, also in gas of
+   E_g = 1 or without heat of its own. */
 static void furnace_is_even(adv_trial *trial) {
   adv_question question[2] = {trial->question, trial->question};
   adv_scene *copy = &trial->copy[0];
@@ -203,7 +204,8 @@ static void furnace_is_even(adv_trial *trial) {
   for (size_t band = 0; band < copy->bands; band++) {
     for (size_t k = 0; k < copy->count; k++)
       copy->patch[k].emission[band] = 1 - adv_scattered(&copy->patch[k], band);
-    copy->background[band] = adv_int(&trial->random, 0, 1) / 2.0;
+    copy->background[band] = adv_has_gas(copy) ? 0 : adv_int(&trial->random, 0, 1) / 2.0;
+    copy->hot[band] = !copy->heated;
   }
   transform(trial, copy);
   ask_all(trial, 0, question);

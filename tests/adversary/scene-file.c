@@ -73,6 +73,18 @@ static void write_period(FILE *file, const adv_scene *scene) {
             ldexp((double)scene->period[1], scene->exponent));
 }
 
+static void write_gas(FILE *file, const adv_scene *scene) {
+  if (!adv_has_gas(scene)) return;
+  fprintf(file, ", \"medium\": {\"section\": \"%s\", ", scene->flat ? "flat" : "long");
+  write_values(file, "absorption", scene->kappa, scene->bands);
+  fprintf(file, ", ");
+  if (scene->heated)
+    fprintf(file, "\"flux\": %.17g", scene->hot[0]);
+  else
+    write_values(file, "emission", scene->hot, scene->bands);
+  fprintf(file, "}");
+}
+
 int adv_write(const adv_scene *scene, const char *path) {
   FILE *file = fopen(path, "w");
   if (!file) return 0;
@@ -80,6 +92,7 @@ int adv_write(const adv_scene *scene, const char *path) {
   write_values(file, "background", scene->background, scene->bands);
   write_day(file, scene);
   write_period(file, scene);
+  write_gas(file, scene);
   fprintf(file, "}, \"features\": [");
   for (size_t k = 0; k < scene->count; k++) write_patch(file, scene, k);
   for (size_t k = 0; k < scene->mirrors; k++) write_mirror(file, scene, k);

@@ -173,6 +173,7 @@ int adv_has_sky(const adv_scene *scene) {
 double adv_outside(const adv_scene *scene, size_t band) {
   double max = fmax(scene->background[band], scene->sun[band].irradiance);
   for (size_t k = 0; k < scene->pieces; k++) max = fmax(max, scene->piece[k].value[band]);
+  if (scene->kappa[band] > 0 && !scene->heated) max = fmax(max, scene->hot[band]);
   return max;
 }
 
@@ -193,6 +194,41 @@ static hr2d_status set_day(const adv_scene *scene, hr2d_scene *built) {
   if (!status && scene->pieces)
     status = hr2d_scene_set_sky(built, piece, scene->pieces, value, scene->bands);
   return status;
+}
+
+void adv_fill_gas(adv_scene *scene, adv_random *r, double low, double high, int heated) {
+  const int hot = adv_chance(r, 0.7);
+  scene->flat = adv_chance(r, 0.3);
+  scene->heated = heated;
+  for (size_t b = 0; b < scene->bands; b++) {
+    scene->kappa[b] = exp(adv_real(r, log(low), log(high)));
+    if (b > 0 && adv_chance(r, 0.4)) scene->kappa[b] = adv_chance(r, 0.5) ? 0 : scene->kappa[0];
+    scene->hot[b] = hot ? adv_int(r, 1, 64) / 64.0 : 0;
+  }
+}
+
+int adv_has_gas(const adv_scene *scene) {
+  for (size_t b = 0; b < scene->bands; b++)
+    if (scene->kappa[b] > 0) return 1;
+  return 0;
+}
+
+void adv_scale_gas(adv_scene *scene, double factor) {
+  for (size_t b = 0; b < ADV_BANDS; b++) scene->kappa[b] /= factor;
+  if (scene->heated) scene->hot[0] *= factor;
+}
+
+static hr2d_status set_gas(const adv_scene *scene, hr2d_scene *built) {
+  hr2d_gas gas = HR2D_GAS_INIT;
+  if (!adv_has_gas(scene)) return HR2D_OK;
+  gas.absorption = scene->kappa;
+  gas.emission = scene->hot;
+  gas.absorption_bands = scene->bands;
+  gas.emission_bands = scene->heated ? 0 : scene->bands;
+  gas.given = scene->heated ? HR2D_HEAT_FLUX : HR2D_HEAT_NONE;
+  gas.value = scene->heated ? scene->hot[0] : 0;
+  gas.section = scene->flat ? HR2D_SECTION_FLAT : HR2D_SECTION_LONG;
+  return hr2d_scene_add_gas(built, &gas, NULL);
 }
 
 static hr2d_point on_scene(const adv_scene *scene, int64_t x, int64_t y) {
@@ -227,5 +263,6 @@ hr2d_status adv_build(const adv_scene *scene, hr2d_scene **built) {
   if (!status) status = hr2d_scene_set_background(*built, scene->background, scene->bands);
   if (!status) status = set_day(scene, *built);
   if (!status) status = set_symmetry(scene, *built);
+  if (!status) status = set_gas(scene, *built);
   return status ? status : hr2d_scene_commit(*built);
 }

@@ -55,6 +55,8 @@ typedef struct adv_scene {
   adv_sun sun[ADV_BANDS];
   adv_piece piece[ADV_PIECES];
   size_t pieces;
+  double kappa[ADV_BANDS], hot[ADV_BANDS]; /* of a gas: κ per length, and E_g */
+  int flat, heated;                        /* its section; its heat is given, as hot[0] */
   double turned; /* B may be off by this: bearings were turned by an angle that is no double */
   double gain;   /* B is this times B of the original */
 } adv_scene;
@@ -112,6 +114,14 @@ double adv_length(const adv_scene *scene, size_t patch);
 /* Whether light comes from outside in some band, besides the background. */
 int adv_has_sun(const adv_scene *scene);
 int adv_has_sky(const adv_scene *scene);
+
+/* Gas in all bands with κ from `low` to `high`, in some bands of several perhaps none; hot or
+   cold, or of given heat. */
+void adv_fill_gas(adv_scene *scene, adv_random *r, double low, double high, int heated);
+int adv_has_gas(const adv_scene *scene);
+
+/* The same gas in a scene that is `factor` times as large. */
+void adv_scale_gas(adv_scene *scene, double factor);
 
 /* The most that comes from outside, as a radiosity or an irradiance. */
 double adv_outside(const adv_scene *scene, size_t band);

@@ -30,6 +30,21 @@ static void turn_sky(adv_scene *scene, int a, int b) {
   scene->turned += off;
 }
 
+/* κ gets roundings; what arrives through gas, and what walls make of it, follows them. */
+static void stretch_gas(adv_scene *scene, double factor) {
+  double max = 0, light = 0;
+  if (!adv_has_gas(scene) || factor == 1) return;
+  for (size_t band = 0; band < scene->bands; band++) {
+    light = fmax(light, scene->hot[band]);
+    for (size_t k = 0; k < scene->count; k++) {
+      max = fmax(max, adv_scattered(&scene->patch[k], band));
+      light = fmax(light, scene->patch[k].emission[band]);
+    }
+  }
+  scene->turned += 0x1p-49 * light / (1 - max) / (1 - max);
+  adv_scale_gas(scene, factor);
+}
+
 static void rotate_pair(int64_t *x, int64_t *y, int a, int b) {
   int64_t old = *x;
   *x = a * *x - b * *y;
@@ -51,6 +66,7 @@ static int multiply(adv_scene *scene, int a, int b) {
       rotate_pair(&scene->mirror[k].x[end], &scene->mirror[k].y[end], a, b);
   rotate_pair(&scene->period[0], &scene->period[1], a, b);
   turn_sky(scene, a, b);
+  stretch_gas(scene, hypot(a, b));
   return 1;
 }
 
@@ -103,7 +119,9 @@ static int mirror(adv_scene *scene, adv_random *r) {
 }
 
 static int scale(adv_scene *scene, adv_random *r) {
-  scene->exponent += adv_int(r, -40, 40);
+  const int levels = adv_int(r, -40, 40);
+  scene->exponent += levels;
+  adv_scale_gas(scene, ldexp(1, levels));
   return 1;
 }
 
@@ -133,6 +151,7 @@ static int brighten(adv_scene *scene, adv_random *r) {
   for (size_t band = 0; band < scene->bands; band++) {
     for (size_t k = 0; k < scene->count; k++) scene->patch[k].emission[band] *= gain;
     scene->background[band] *= gain;
+    scene->hot[band] *= gain;
     scene->sun[band].irradiance *= gain;
     for (size_t k = 0; k < scene->pieces; k++) scene->piece[k].value[band] *= gain;
   }
@@ -212,11 +231,14 @@ static int reorder(adv_scene *scene, adv_random *r) {
 /* Room for a few patches more, and for their coordinates; what is outside of the box of a scene
    with images may be within one of theirs. */
 static int has_room(const adv_scene *scene, int bits) {
+  if (scene->heated) return 0; /* what is added takes of its heat */
   return !adv_is_symmetric(scene) && scene->count + 6 <= ADV_PATCHES &&
          adv_bits(scene) + bits <= BITS;
 }
 
+/* Gas is light from outside, and refuses backs that are seen. */
 static int dark_sky(const adv_scene *scene) {
+  if (adv_has_gas(scene)) return 0;
   for (size_t band = 0; band < scene->bands; band++)
     if (scene->background[band] > 0) return 0;
   return !adv_has_sun(scene) && !adv_has_sky(scene);
@@ -283,12 +305,16 @@ static int neighbour(adv_scene *scene, adv_random *r) {
    hidden, but what they emit would escape. */
 static int band(adv_scene *scene, adv_random *r) {
   size_t added = scene->bands;
-  if (added == ADV_BANDS || scene->unfolded) return 0;
+  if (added == ADV_BANDS || scene->unfolded || scene->heated) return 0;
   int dark = adv_chance(r, 0.5);
   for (size_t k = 0; k < scene->count; k++) {
     int lit = adv_int(r, 0, 8);
     scene->patch[k].emission[added] = dark || scene->patch[k].source < 0 ? 0 : lit / 8.0;
     scene->patch[k].reflectance[added] = adv_int(r, 0, 7) / 8.0;
+  }
+  if (adv_has_gas(scene)) {
+    scene->kappa[added] = scene->kappa[0] * adv_int(r, 0, 2);
+    scene->hot[added] = adv_int(r, 0, 8) / 8.0;
   }
   if (adv_has_sun(scene) && !dark && !adv_is_symmetric(scene))
     scene->sun[added] = (adv_sun){adv_int(r, -9, 9), -adv_int(r, 1, 9), adv_int(r, 0, 8) / 8.0};

@@ -20,7 +20,9 @@ needs_python() {
 # just built.
 make_reader() {
   mkdir -p "$1"
-  printf '#!/bin/sh\nexec %s "$@" %s\n' "$CC" "${HR2D_CFLAGS-}" >"$1/cc"
+  # By its path: a cc of this folder would call itself.
+  compiler=$(command -v "${CC%% *}")${CC#"${CC%% *}"}
+  printf '#!/bin/sh\nexec %s "$@" %s\n' "$compiler" "${HR2D_CFLAGS-}" >"$1/cc"
   chmod +x "$1/cc"
   export PATH="$1:${HR2D_PROGRAM%/*}:$PATH"
   export PKG_CONFIG_PATH="$HR2D_BUILDDIR${PKG_CONFIG_PATH:+:$PKG_CONFIG_PATH}"

@@ -75,11 +75,13 @@ static hr2d_scene *draw(int n) {
   return scene;
 }
 
-static hr2d_solution *solve_to(const hr2d_scene *scene, double error, hr2d_account *account) {
+static hr2d_solution *solve_to(const hr2d_scene *scene, double error, hr2d_norm norm,
+                               hr2d_account *account) {
   hr2d_target target = HR2D_TARGET_INIT;
   hr2d_solution *solution = NULL;
   target.error = error;
   target.points = 1;
+  target.norm = norm;
   const hr2d_status status = hr2d_solve_to(scene, &target, &solution, account);
   ck_assert_msg(!status || status == HR2D_EACCURACY, "%s: %s", hr2d_strerror(status),
                 account->reason);
@@ -119,13 +121,14 @@ static double worst_point_of(const hr2d_solution *s, const hr2d_solution *fine, 
       worst = fmax(worst, fabs(is[k] - right[k]));
     }
   }
-  return largest > 0 ? fmax(worst / largest - 1e-10, 0) : 0;
+  return largest > 0 ? worst / largest : 0;
 }
 
 /* The largest error of M between places of two patches, as a part of its bound; what sees no
    light has none. */
 static double worst_field_of(const hr2d_solution *s, const hr2d_solution *fine,
-                             const hr2d_scene *scene, const hr2d_account *account) {
+                             const hr2d_scene *scene, const hr2d_account *account,
+                             const hr2d_account *of_fine) {
   const size_t patches = hr2d_scene_patches(scene);
   hr2d_field_options options = HR2D_FIELD_OPTIONS_INIT;
   hr2d_field_values values = HR2D_FIELD_VALUES_INIT;
@@ -135,16 +138,16 @@ static double worst_field_of(const hr2d_solution *s, const hr2d_solution *fine,
                        q = hr2d_scene_segment(scene, (k + 1) % patches);
     const hr2d_point at = {(2 * p.a.x + p.b.x + 3 * q.b.x) / 6,
                            (2 * p.a.y + p.b.y + 3 * q.b.y) / 6};
-    double is, right, error;
+    double is, right, error, rest;
     options.account = account;
     values.mean = &is;
     values.error = &error;
     ck_assert_int_eq(hr2d_field_at(s, &at, 1, &options, &values), HR2D_OK);
-    options.account = NULL;
+    options.account = of_fine;
     values.mean = &right;
-    values.error = NULL;
+    values.error = &rest;
     ck_assert_int_eq(hr2d_field_at(fine, &at, 1, &options, &values), HR2D_OK);
-    const double off = fabs(is - right) - 1e-10 * right;
+    const double off = fabs(is - right) - rest;
     if (off > 0) worst = fmax(worst, off / error);
   }
   return worst;
@@ -154,28 +157,32 @@ START_TEST(bounds_hold_in_gas) {
   double worst = 0, point = 0, seen = 0;
   size_t solves = 0, reached = 0;
   for (int n = 0; n < test_count(600); n++) {
-    hr2d_account account;
+    hr2d_account account, of_fine;
     hr2d_scene *scene = draw(n);
     const size_t patches = hr2d_scene_patches(scene);
-    hr2d_solution *fine = solve_to(scene, 1e-11, &account);
+    hr2d_solution *fine = solve_to(scene, 1e-9, HR2D_NORM_SUP, &account);
+    of_fine = account;
     const double rest = fmax(account.average.estimate, account.irradiance.estimate);
-    ck_assert_double_lt(rest, 1e-10);
+    /* Corners of thick gas have fewer digits at points: what the truth is off counts. */
+    const double b_off = account.sup.bound, h_off = account.irradiance_sup.bound;
+    ck_assert_double_lt(rest, 1.1e-10); /* a tenth of the target where events are */
     for (double error = 1e-2; error > 1e-9; error *= 1e-3) {
-      hr2d_solution *s = solve_to(scene, error, &account);
+      hr2d_solution *s = solve_to(scene, error, HR2D_NORM_AVERAGE, &account);
       const double b = worst_of(s, fine, patches, hr2d_solution_average);
       const double h = worst_of(s, fine, patches, hr2d_solution_irradiance);
       ck_assert_msg(b <= account.average.bound, "%d to %g: B is off by %g, at most %g", n,
                     error, b, account.average.bound);
       ck_assert_msg(h <= account.irradiance.bound, "%d to %g: H is off by %g, at most %g", n,
                     error, h, account.irradiance.bound);
-      const double pb = worst_point_of(s, fine, patches, hr2d_solution_gather);
-      const double ph = worst_point_of(s, fine, patches, hr2d_solution_gather_irradiance);
+      const double pb = worst_point_of(s, fine, patches, hr2d_solution_gather) - b_off;
+      const double ph =
+          worst_point_of(s, fine, patches, hr2d_solution_gather_irradiance) - h_off;
       ck_assert_msg(pb <= account.sup.bound, "%d to %g: B at a point is off by %g, at most %g",
                     n, error, pb, account.sup.bound);
       ck_assert_msg(ph <= account.irradiance_sup.bound,
                     "%d to %g: H at a point is off by %g, at most %g", n, error, ph,
                     account.irradiance_sup.bound);
-      const double field = worst_field_of(s, fine, scene, &account);
+      const double field = worst_field_of(s, fine, scene, &account, &of_fine);
       ck_assert_msg(field <= 1, "%d to %g: M is off by %g of its bound", n, error, field);
       point = fmax(point, field);
       worst = fmax(worst, fmax(b / account.average.bound, h / account.irradiance.bound));
