@@ -11,6 +11,9 @@
 #include "base/team.h"
 #include "field/leaf-errors.h"
 
+/* Of E_g; 3 roundings were seen. */
+#define GAS_ROUNDING 0x1p-48
+
 /* Points of a task. */
 enum { GROUP = 32 };
 
@@ -56,18 +59,22 @@ static hr2d_status find_errors(hr2di_field_call *f, const hr2d_solution *solutio
                            &f->source.element_error);
 }
 
-/* E_g of a gas of given heat is a mean of B, and so it is off by no more than B. */
+/* The light of gas has roundings of its sum.  E_g of a gas of given heat is a mean of B, and so
+   it is off by no more than B. */
 static hr2d_status find_gas_error(hr2di_field_call *f) {
   hr2di_light_source *of = &f->source;
   const hr2d_scene *scene = hr2di_solution_scene(of->solution);
   const double *error = of->patch_error ? of->patch_error : of->element_error;
   const size_t bands = of->solution->bands;
-  if (!error || !hr2di_scene_gas_is_free(scene)) return HR2D_OK;
+  if (!error || !of->has_gas) return HR2D_OK;
   of->gas_error = hr2di_alloc_zero(&of->leaves.alloc, bands, sizeof *of->gas_error);
+  if (!of->gas_error) return HR2D_ENOMEM;
   /* The first elements are the patches. */
-  for (size_t k = 0; k < hr2di_scene_cell(scene) * bands && of->gas_error; k++)
+  for (size_t k = 0; k < hr2di_scene_cell(scene) * bands && hr2di_scene_gas_is_free(scene); k++)
     of->gas_error[k % bands] = fmax(of->gas_error[k % bands], error[k]);
-  return of->gas_error ? HR2D_OK : HR2D_ENOMEM;
+  for (size_t b = 0; b < bands; b++)
+    of->gas_error[b] += GAS_ROUNDING * fabs(of->solution->gas[2 * b]);
+  return HR2D_OK;
 }
 
 /* Whether there is a normal for each point, if irradiances are wanted. */

@@ -75,13 +75,11 @@ static hr2d_scene *draw(int n) {
   return scene;
 }
 
-static hr2d_solution *solve_to(const hr2d_scene *scene, double error, hr2d_norm norm,
-                               hr2d_account *account) {
+static hr2d_solution *solve_to(const hr2d_scene *scene, double error, hr2d_account *account) {
   hr2d_target target = HR2D_TARGET_INIT;
   hr2d_solution *solution = NULL;
   target.error = error;
   target.points = 1;
-  target.norm = norm;
   const hr2d_status status = hr2d_solve_to(scene, &target, &solution, account);
   ck_assert_msg(!status || status == HR2D_EACCURACY, "%s: %s", hr2d_strerror(status),
                 account->reason);
@@ -160,14 +158,14 @@ START_TEST(bounds_hold_in_gas) {
     hr2d_account account, of_fine;
     hr2d_scene *scene = draw(n);
     const size_t patches = hr2d_scene_patches(scene);
-    hr2d_solution *fine = solve_to(scene, 1e-9, HR2D_NORM_SUP, &account);
+    hr2d_solution *fine = solve_to(scene, 1e-11, &account);
     of_fine = account;
     const double rest = fmax(account.average.estimate, account.irradiance.estimate);
     /* Corners of thick gas have fewer digits at points: what the truth is off counts. */
     const double b_off = account.sup.bound, h_off = account.irradiance_sup.bound;
-    ck_assert_double_lt(rest, 1.1e-10); /* a tenth of the target where events are */
+    ck_assert_double_lt(rest, 1e-10);
     for (double error = 1e-2; error > 1e-9; error *= 1e-3) {
-      hr2d_solution *s = solve_to(scene, error, HR2D_NORM_AVERAGE, &account);
+      hr2d_solution *s = solve_to(scene, error, &account);
       const double b = worst_of(s, fine, patches, hr2d_solution_average);
       const double h = worst_of(s, fine, patches, hr2d_solution_irradiance);
       ck_assert_msg(b <= account.average.bound, "%d to %g: B is off by %g, at most %g", n,
