@@ -31,8 +31,7 @@ typedef struct hr2di_light_source {
   int lit_sky;               /* whether there is light where nothing stands */
   const double *patch_error; /* patches × bands, or NULL */
   double *element_error;     /* elements × bands, see leaf-errors.h; or NULL */
-  double
-      *gas_error; /* per band: the same of E_g, where the heat of the gas is given; or NULL */
+  double *gas_error;         /* per band: the same of E_g; or NULL */
 } hr2di_light_source;
 
 /* HR2D_OK, HR2D_ENOMEM or the status of the watch; to be ended by hr2di_light_source_clear() in
