@@ -479,7 +479,7 @@ check "info tells the gas" grep -q '^gas           absorbs 0.2 per length$' "$wo
 through='the scene has a gas, "medium", through which this version does not compute'
 expect 1 "$through" factors "$gas"
 expect 1 "$through" cost "$gas"
-expect 1 "$through" study "$gas" --oracle l1
+expect 1 "the oracles l1, l1-grid and bounds estimate no errors through gas" study "$gas" --oracle l1
 succeeds solve "$gas" --target-error 1e-3 --norm sup
 check "errors at points go through gas" grep -q '^          at points about' "$work/out"
 succeeds info "$scenes/furnace-flue-gas.geojson"
