@@ -62,7 +62,7 @@ bench_bench_fibres_LDADD = libhr2d-core.la $(THREADS_LIBS) -lm
 bench_bench_prediction_SOURCES = bench/bench-prediction.c \
 	tests/adversary/kinds.c tests/adversary/kinds.h tests/adversary/kinds-day.c \
 	tests/adversary/kinds-extreme.c tests/adversary/kinds-open.c \
-	tests/adversary/kinds-rooms.c tests/adversary/kinds-symmetry.c \
+	tests/adversary/kinds-gas.c tests/adversary/kinds-rooms.c tests/adversary/kinds-symmetry.c \
 	tests/adversary/random.h tests/adversary/scene.c tests/adversary/scene.h
 bench_bench_prediction_LDADD = libhr2d-core.la $(THREADS_LIBS) -lm
 bench_bench_budgets_SOURCES = bench/bench-budgets.c bench/budget-scenes.c \
