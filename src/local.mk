@@ -236,6 +236,7 @@ libhr2d_core_la_SOURCES = \
 	src/field/light.c src/field/light.h \
 	src/field/light-source.c src/field/light-source.h \
 	src/field/light-strip.c src/field/light-strip.h \
+	src/field/light-sum.h \
 	src/field/locate.c src/field/locate.h \
 	src/field/past-ends.c src/field/past-ends.h \
 	src/field/visibility-polygon.c src/field/visibility-polygon.h \
