@@ -23,10 +23,14 @@
 /* What is not farther than the vertex by more than this part ends there. */
 #define SAME 1e-9
 
+/* How far from x what is seen beside w: as far as w, or as what ends at v or is behind w. */
+typedef enum distance { AT_W, AT_V, BEHIND_W } distance;
+
 /* What is seen somewhere: a patch's front at a fraction of it, or what else. */
 typedef struct thing {
   uint32_t patch;
   double at;
+  distance from_x;
 } thing;
 
 typedef struct search {
@@ -41,7 +45,7 @@ typedef struct search {
 } search;
 
 static double value_of(const hr2di_light_source *of, thing what, size_t band) {
-  if (what.patch == HR2DI_ROUND_SKY) return hr2d_scene_background(of->scene, band);
+  if (what.patch == HR2DI_ROUND_SKY) return hr2di_light_sky(of, band);
   if (what.patch == HR2DI_ROUND_BACK) return 0;
   const uint32_t patch = hr2di_light_patch(of, what.patch);
   if (patch == HR2DI_NOBODY) return 0;
@@ -67,14 +71,23 @@ static int same_kind(thing one, thing other) {
   return is_front(one) ? is_front(other) : one.patch == other.patch;
 }
 
+/* B, or that behind gas: E + T(B − E) with 0 ≤ T ≤ 1, which is the same for both as long as
+   they are as far. */
+static double difference_of(const hr2di_light_source *of, thing one, thing other, size_t band) {
+  const double a = value_of(of, one, band), b = value_of(of, other, band),
+               kappa = hr2d_scene_absorption(of->scene, 0, band);
+  if (!(kappa > 0) || one.from_x == other.from_x) return fabs(a - b);
+  const double gas = of->solution->gas[2 * band];
+  return fmax(fabs(a - b), fmax(fabs(a - gas), fabs(b - gas)));
+}
+
 static double jump_between(const search *s, thing one, thing other) {
   double jump = same_kind(one, other) ? 0 : 1 / s->scale->share;
   for (size_t b = 0; b < s->of->solution->bands; b++) {
     const int sky = (one.patch == HR2DI_ROUND_SKY) != (other.patch == HR2DI_ROUND_SKY);
     const double spread =
         sky ? hr2di_sky_max(s->of->scene, b) - hr2di_sky_min(s->of->scene, b) : 0;
-    const double difference =
-        fabs(value_of(s->of, one, b) - value_of(s->of, other, b)) + spread;
+    const double difference = difference_of(s->of, one, other, b) + spread;
     if (difference > 0) jump = fmax(jump, difference / s->scale->band[b]);
   }
   return jump;
@@ -132,20 +145,20 @@ static thing seen_in(const search *s, hr2d_point direction) {
                  left = hr2di_point_cross(direction, on->left);
     if (right < 0 || left < 0 || !(on->angle > 0)) continue;
     const double part = atan2(right, hr2di_point_dot(on->right, direction)) / on->angle;
-    return (thing){on->patch, on->from + fmin(part, 1) * (on->to - on->from)};
+    return (thing){on->patch, on->from + fmin(part, 1) * (on->to - on->from), BEHIND_W};
   }
-  return (thing){HR2DI_ROUND_BACK, 0};
+  return (thing){HR2DI_ROUND_BACK, 0, BEHIND_W};
 }
 
 /* The front on a side of a wall at one of its ends. */
-static thing face_at(const search *s, int32_t across, hr2d_point at) {
+static thing face_at(const search *s, int32_t across, hr2d_point at, distance from_x) {
   const hr2d_scene *scene = s->of->scene;
   const uint32_t patch = hr2di_patch_beside(scene, (hr2di_wall_side)~across, at);
-  if (patch == HR2DI_NOBODY) return (thing){HR2DI_ROUND_BACK, 0};
+  if (patch == HR2DI_NOBODY) return (thing){HR2DI_ROUND_BACK, 0, from_x};
   const hr2d_segment on = scene->patch[patch].scaled;
   const hr2d_point d = hr2di_point_minus(on.b, on.a), e = hr2di_point_minus(at, on.a);
   const double t = hr2di_point_dot(d, e) / hr2di_point_dot(d, d);
-  return (thing){patch, fmin(fmax(t, 0), 1)};
+  return (thing){patch, fmin(fmax(t, 0), 1), from_x};
 }
 
 /* Between two walls that meet at w. */
@@ -188,8 +201,8 @@ static hr2d_status add_sector(search *s, int32_t first, int32_t last) {
                    l = in->at[left->corner[last & 3]];
   const int32_t face[2] = {right->across[first & 3], left->across[last & 3]};
   sector all = {.end = {hr2di_point_minus(r, s->w), hr2di_point_minus(l, s->w)},
-                .near = {face_at(s, face[0], s->w), face_at(s, face[1], s->w)},
-                .far = {face_at(s, face[0], r), face_at(s, face[1], l)}};
+                .near = {face_at(s, face[0], s->w, AT_W), face_at(s, face[1], s->w, AT_W)},
+                .far = {face_at(s, face[0], r, AT_V), face_at(s, face[1], l, AT_V)}};
   for (size_t k = 0; k < s->count; k++) all.angle += s->seen[k].angle;
   hr2d_status status = add_along(s, &all, 0);
   double angle = 0;
@@ -247,12 +260,13 @@ static hr2d_status view_from_parts(search *s, hr2di_parts parts) {
     thing what[2];
     for (uint32_t n = 0; n < 2; n++) {
       const uint32_t patch = part[k + n].patch;
-      what[n] = (thing){HR2DI_ROUND_BACK, 0};
+      what[n] = (thing){HR2DI_ROUND_BACK, 0, AT_W};
       if (patch == HR2DI_NOBODY) continue;
       const hr2d_segment on = s->of->scene->patch[patch].scaled;
       const hr2d_point d = hr2di_point_minus(on.b, on.a),
                        e = hr2di_point_minus(part[k].at.b, on.a);
-      what[n] = (thing){patch, fmin(fmax(hr2di_point_dot(d, e) / hr2di_point_dot(d, d), 0), 1)};
+      what[n] =
+          (thing){patch, fmin(fmax(hr2di_point_dot(d, e) / hr2di_point_dot(d, d), 0), 1), AT_W};
     }
     status = view_from_place(s, part[k].at, 1, jump_between(s, what[0], what[1]),
                              has_light(s->of, what[0]) != has_light(s->of, what[1]));
@@ -268,8 +282,8 @@ static hr2d_status view_from_jumps(search *s, size_t patch) {
   if (on == HR2DI_NOBODY) return HR2D_OK;
   for (size_t k = l->of_patch[on] + 1; k < l->of_patch[on + 1] && !status; k++) {
     if (l->group[k] == l->group[k - 1]) continue;
-    const thing after = {(uint32_t)patch, l->leaf[k].from},
-                before = {(uint32_t)patch, nextafter(l->leaf[k].from, 0)};
+    const thing after = {(uint32_t)patch, l->leaf[k].from, AT_W},
+                before = {(uint32_t)patch, nextafter(l->leaf[k].from, 0), AT_W};
     status = view_from_place(s, s->of->scene->patch[patch].scaled, l->leaf[k].from,
                              jump_between(s, before, after), 0);
   }

@@ -162,7 +162,6 @@ hr2d_status hr2d_field_on_grid(const hr2d_solution *solution, const hr2d_field_g
   /* Borders of the light above a plane are not those of the light all round. */
   if (!status && c.grid.tolerance > 0 && (c.f.values.irradiance || c.f.values.irradiance_error))
     status = HR2D_EINVAL;
-  if (!status && c.f.source.has_gas) c.grid.tolerance = 0; /* borders know no gas */
   set_map(&c, &c.f.scene.scene);
   c.items = c.f.values.flux || c.f.values.error ? c.each : HR2DI_NODE_LIGHT + c.bands;
   if (!status) status = run(&c, &steps);

@@ -9,24 +9,23 @@
 #include "geometry/bernstein-ellipse.h"
 #include "geometry/vector.h"
 
-/* −ln of the error of a rule, as a part of B. */
-#define DIGITS 37
-
 /* From a place at some distance. */
 typedef struct passages {
   hr2di_passage mean, flux;
 } passages;
 
-static passages passages_over(const hr2di_light_source *of, size_t group, double distance) {
-  const hr2d_section section = hr2di_scene_section(of->scene);
-  const double depth = hr2di_band_group_absorption(of->scene, group) * distance;
-  return (passages){hr2di_passage_of_mean(section, depth), hr2di_passage_at(section, depth)};
+static passages passages_over(const hr2di_light_sum *sum, size_t group, double distance) {
+  const hr2d_section section = hr2di_scene_section(sum->of->scene);
+  const double depth = hr2di_band_group_absorption(sum->of->scene, group) * distance;
+  passages over = {.mean = hr2di_passage_of_mean(section, depth)};
+  if (sum->flux) over.flux = hr2di_passage_at(section, depth);
+  return over;
 }
 
 static const hr2di_rule *choose_rule(const hr2di_light_source *of, double ellipse) {
   const double m = fmin(fmax(ellipse, HR2DI_NEAR_ELLIPSE), HR2DI_GAS_ELLIPSE);
-  const double points =
-      ((double)of->solution->order + DIGITS / log(m + sqrt(m * m - 1))) / 2 + 1;
+  const double digits = -log(of->allowed) / log(m + sqrt(m * m - 1));
+  const double points = ((double)of->leaves.order + digits) / 2 + 1;
   return hr2di_light_rule(of, points);
 }
 
@@ -34,9 +33,9 @@ static const hr2di_rule *choose_rule(const hr2di_light_source *of, double ellips
 static void add_band(hr2di_light_sum *sum, const passages *pass, size_t b, double value,
                      double angle, hr2d_point vector) {
   const double gas = sum->of->solution->gas[2 * b];
-  const double flux = pass->flux.arrives * value + pass->flux.absorbed * gas;
   sum->mean[b] += angle * (pass->mean.arrives * value + pass->mean.absorbed * gas);
   if (!sum->flux) return;
+  const double flux = pass->flux.arrives * value + pass->flux.absorbed * gas;
   sum->flux[2 * b] += vector.x * flux;
   sum->flux[2 * b + 1] += vector.y * flux;
 }
@@ -47,7 +46,7 @@ static void add_place(hr2di_light_sum *sum, const hr2di_strip *s, double t, doub
   const size_t bands = of->solution->bands;
   const hr2d_point r = hr2di_block_along(s->from, s->along, t);
   for (size_t g = 0; g < hr2di_band_groups(of->scene); g++) {
-    const passages pass = passages_over(of, g, sqrt(hr2di_point_dot(r, r)));
+    const passages pass = passages_over(sum, g, sqrt(hr2di_point_dot(r, r)));
     for (size_t k = 0; k < hr2di_band_group_size(of->scene, g); k++) {
       const size_t b = hr2di_band_group_at(of->scene, g, k);
       const double value =
@@ -73,6 +72,13 @@ static void add_panel(hr2di_light_sum *sum, const hr2di_strip *s, hr2di_span pan
     *vector = (hr2d_point){vector->x + ray.x, vector->y + ray.y};
     add_place(sum, s, t, weight, ray);
   }
+}
+
+void hr2di_light_add_far_in_gas(hr2di_light_sum *sum, const hr2di_strip *s, hr2di_span part,
+                                const hr2di_rule *rule) {
+  double angle = 0;
+  hr2d_point vector = {0, 0};
+  add_panel(sum, s, part, rule, &angle, &vector);
 }
 
 void hr2di_light_add_in_gas(hr2di_light_sum *sum, const hr2di_strip *s, hr2di_span part,

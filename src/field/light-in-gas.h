@@ -10,4 +10,8 @@
 void hr2di_light_add_in_gas(hr2di_light_sum *sum, const hr2di_strip *s, hr2di_span part,
                             double angle, hr2d_point vector);
 
+/* Adds a part that a rule may take as a whole. */
+void hr2di_light_add_far_in_gas(hr2di_light_sum *sum, const hr2di_strip *s, hr2di_span part,
+                                const hr2di_rule *rule);
+
 #endif

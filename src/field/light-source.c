@@ -57,6 +57,7 @@ static double ellipse_of(double value, double power) {
   return (rho + 1 / rho) / 2;
 }
 
+/* Gas makes E_g + T(B − E_g) of B, where |T| ≤ 1 within the ellipse, as Re r ≥ 0 there. */
 static hr2di_light_far far_of(const hr2di_light_source *of, uint32_t element) {
   const double order = (double)of->leaves.order, degree = order - 1;
   const double differs = of->leaves.difference[element] * (MERGED / (RULED * ORTHOGONAL));
@@ -64,6 +65,7 @@ static hr2di_light_far far_of(const hr2di_light_source *of, uint32_t element) {
   hr2di_light_far far;
   float level, varies;
   hr2di_leaves_measure(&of->leaves, of->solution->bands, element, &level, &varies);
+  if (of->has_gas) level += 2; /* E_g is at most 1 of the scale */
   for (int k = 0; k < HR2DI_LIGHT_FAR; k++) {
     const double n = rule_points[k];
     const double max = 4 * (2 * n + 1) / (of->allowed * (1 - ORTHOGONAL));

@@ -51,6 +51,14 @@ static hr2di_strip strip_of(const hr2di_light_sum *sum, const seen_patch *p,
                                       e->element * of->leaves.order * of->solution->bands};
 }
 
+static void add_far_part(hr2di_light_sum *sum, const hr2di_strip *s, hr2di_span part,
+                         const hr2di_rule *rule) {
+  if (sum->of->has_gas)
+    hr2di_light_add_far_in_gas(sum, s, part, rule);
+  else
+    hr2di_strip_add_panel(sum, s, part, rule, 1);
+}
+
 /* The largest element that begins with a leaf, ends before `to`, and is far; adds it.  Returns
    whether there is one: it is not the leaf itself. */
 static int add_far(hr2di_light_sum *sum, const seen_patch *p, size_t leaf, double to,
@@ -63,7 +71,7 @@ static int add_far(hr2di_light_sum *sum, const seen_patch *p, size_t leaf, doubl
     if (e->from == first->from && e->to <= to) {
       const hr2di_strip s = strip_of(sum, p, e);
       const hr2di_rule *rule = hr2di_strip_far_rule(of, e->element, &s, (hr2di_span){0, 1});
-      if (rule) hr2di_strip_add_panel(sum, &s, (hr2di_span){0, 1}, rule, 1);
+      if (rule) add_far_part(sum, &s, (hr2di_span){0, 1}, rule);
       if (rule) return 1;
     }
     const double middle =
@@ -106,11 +114,11 @@ static void add_leaf(hr2di_light_sum *sum, const seen_patch *p, size_t k, hr2di_
   hr2di_strip s = strip_of(sum, p, &e);
   s.varies = leaf->varies;
   const hr2di_rule *rule = hr2di_strip_far_rule(of, leaf->element, &s, part);
-  if (of->has_gas)
+  if (rule)
+    add_far_part(sum, &s, part, rule);
+  else if (of->has_gas)
     hr2di_light_add_in_gas(sum, &s, part, hr2di_light_angle(right, left),
                            hr2di_light_vector(right, left));
-  else if (rule)
-    hr2di_strip_add_panel(sum, &s, part, rule, 1);
   else
     hr2di_strip_add_near(sum, &s, part, right, left, angle);
 }
@@ -198,6 +206,11 @@ static void add_pieces(hr2di_light_sum *sum, const hr2di_polygon_arc *s) {
   }
 }
 
+double hr2di_light_sky(const hr2di_light_source *of, size_t band) {
+  return hr2d_scene_absorption(of->scene, 0, band) > 0 ? of->solution->gas[2 * band]
+                                                       : hr2d_scene_background(of->scene, band);
+}
+
 void hr2di_light_add_sky(hr2di_light_sum *sum, hr2d_point right, hr2d_point left, double angle,
                          double bearing, double factor) {
   const hr2d_point vector = sum->flux ? hr2di_light_vector(right, left) : (hr2d_point){0, 0};
@@ -205,12 +218,6 @@ void hr2di_light_add_sky(hr2di_light_sum *sum, hr2d_point right, hr2d_point left
   for (size_t b = 0; b < sum->of->solution->bands; b++)
     hr2di_light_add_constant(sum, b, factor * hr2d_scene_sky(sum->of->scene, bearing, b), angle,
                              vector);
-}
-
-/* Where nothing stands gas goes on for ever. */
-static double sky_of(const hr2di_light_source *of, size_t band) {
-  const int absorbs = of->has_gas && hr2di_scene_scaled_absorption(of->scene, band) > 0;
-  return absorbs ? of->solution->gas[2 * band] : hr2d_scene_background(of->scene, band);
 }
 
 void hr2di_light_add(hr2di_light_sum *sum, const hr2di_polygon_arc *s) {
@@ -229,7 +236,7 @@ void hr2di_light_add(hr2di_light_sum *sum, const hr2di_polygon_arc *s) {
     const hr2d_point vector =
         sum->flux ? hr2di_light_vector(s->right, s->left) : (hr2d_point){0, 0};
     for (size_t b = 0; b < bands; b++)
-      hr2di_light_add_constant(sum, b, sky_of(of, b), s->angle, vector);
+      hr2di_light_add_constant(sum, b, hr2di_light_sky(of, b), s->angle, vector);
     add_pieces(sum, s);
     add_suns(sum, s);
   } else {

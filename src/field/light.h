@@ -15,6 +15,10 @@ int hr2di_light_has_sun(const hr2di_light_source *of, hr2d_point right, hr2d_poi
                         size_t band);
 void hr2di_light_add_sun(hr2di_light_sum *sum, size_t band);
 
+/* B of the background, or of gas in front of it, which goes on for ever where nothing stands.
+ */
+double hr2di_light_sky(const hr2di_light_source *of, size_t band);
+
 /* Adds `factor` times the light of the sky at a bearing between two directions. */
 void hr2di_light_add_sky(hr2di_light_sum *sum, hr2d_point right, hr2d_point left, double angle,
                          double bearing, double factor);
