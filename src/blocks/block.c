@@ -24,7 +24,7 @@ hr2d_status hr2di_integrator_init(hr2di_integrator *w, const hr2d_hierarchy *hie
                           .seen.alloc = *alloc};
   hr2di_basis_init(&w->basis, order);
   if (hr2di_scene_has_gas(scene)) {
-    w->absorption = hr2di_scene_scaled_absorption(scene, 0);
+    w->absorption = hr2di_scene_scaled_range(scene).most;
     w->section = hr2di_scene_section(scene);
   }
   w->rule = hr2di_alloc(alloc, HR2DI_RULE_POINTS, sizeof *w->rule);

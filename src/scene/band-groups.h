@@ -32,7 +32,7 @@ static inline size_t hr2di_band_group_at(const hr2d_scene *scene, size_t group, 
   return scene->groups ? scene->group[group]->band_of[k] : k;
 }
 static inline double hr2di_band_group_absorption(const hr2d_scene *scene, size_t group) {
-  return hr2di_scene_scaled_absorption(scene, hr2di_band_group_at(scene, group, 0));
+  return hr2di_scene_scaled_range(scene->groups ? scene->group[group] : scene).most;
 }
 
 #endif

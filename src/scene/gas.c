@@ -112,11 +112,6 @@ int hr2di_scene_has_gas(const hr2d_scene *scene) {
   return scene->gas && scene->gas->given_range.most > 0;
 }
 
-double hr2di_scene_scaled_absorption(const hr2d_scene *scene, size_t band) {
-  if (!scene->gas) return 0;
-  return ldexp(hr2d_scene_absorption(scene, 0, band), scene->exponent);
-}
-
 hr2di_gas_range hr2di_scene_scaled_range(const hr2d_scene *scene) {
   return scene->gas ? scene->gas->scaled_range : (hr2di_gas_range){0, 0};
 }

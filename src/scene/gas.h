@@ -30,8 +30,7 @@ size_t hr2di_scene_gas_bands(const hr2d_scene *scene);
    this, and so a scene without gas takes the way that it always took. */
 int hr2di_scene_has_gas(const hr2d_scene *scene);
 
-/* κ of a band per unit of the scaled coordinates, and of all bands; 0 without gas. */
-double hr2di_scene_scaled_absorption(const hr2d_scene *scene, size_t band);
+/* κ of all bands per unit of the scaled coordinates; 0 without gas. */
 hr2di_gas_range hr2di_scene_scaled_range(const hr2d_scene *scene);
 
 /* Of a scene with gas. */

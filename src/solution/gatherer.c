@@ -362,7 +362,7 @@ hr2d_status hr2di_gatherer_look(hr2di_gatherer *g, size_t patch, double t,
         background ? light_of_sky(g, seen.sky, b) + hr2d_scene_sunlight_at(scene, patch, t, b)
                    : 0;
   for (size_t b = 0; b < g->solution->bands && g->has_gas; b++)
-    if (hr2di_scene_scaled_absorption(scene, b) > 0)
+    if (hr2d_scene_absorption(scene, 0, b) > 0)
       g->value[b] += seen.sky * g->solution->gas[2 * b];
   add_sky(g, patch, &seen);
   add_far_sky(g, tail.sky, tail.bearing, g->value);
