@@ -16,6 +16,9 @@
      digit that they have without closure because B is constant on each patch that sends light
      (d·B on the diagonal makes rows exact, too, but adds ∫dB to averages).
 
+   Gas divides the light of a link into what arrives and what it absorbs: F and D have both, and
+   w spreads both.
+
    Directed links have factors for the push by the links over which an element receives, and
    others for the pull by the links over which it sends. */
 #include "solve/closure.h"
@@ -30,12 +33,13 @@
 #define NOISE HR2DI_DEFECT_CLOSED
 
 /* Sets `below` to D, and `sum` to the mean of σ, of every element. */
-static void sum_rows(hr2di_transport *t, const hr2di_row_sums *rows, int sends, double *below,
-                     double *sum) {
+static void sum_rows(hr2di_transport *t, const hr2di_row_sums *rows, const double *absorbed,
+                     int sends, double *below, double *sum) {
   const hr2d_element *element = t->hierarchy->element;
   hr2di_transport_link_rows(t, sends, below);
   for (size_t k = t->elements; k-- > 0;) {
     const uint32_t c = element[k].child;
+    if (absorbed) below[k] += absorbed[k];
     sum[k] = rows->front[k];
     if (!c) continue;
     const double part = hr2di_element_left_part(element, (uint32_t)k);
@@ -60,12 +64,12 @@ static void set_factors(hr2di_transport *t, const double *below, const double *s
   }
 }
 
-static hr2d_status make_factors(hr2di_transport *t, const hr2di_row_sums *rows, int sends,
-                                double **made) {
+static hr2d_status make_factors(hr2di_transport *t, const hr2di_row_sums *rows,
+                                const double *absorbed, int sends, double **made) {
   double *below = hr2di_alloc(&t->alloc, t->elements, 2 * sizeof *below);
   *made = hr2di_alloc(&t->alloc, t->elements, sizeof **made);
   if (below && *made) {
-    sum_rows(t, rows, sends, below, below + t->elements);
+    sum_rows(t, rows, absorbed, sends, below, below + t->elements);
     set_factors(t, below, below + t->elements, *made);
   }
   hr2di_alloc_free(&t->alloc, below);
@@ -93,11 +97,12 @@ static hr2d_status set_rest(hr2di_transport *t, const hr2di_row_sums *rows) {
 }
 
 /* Both sets of factors are made before either is used. */
-hr2d_status hr2di_closure_set(hr2di_transport *t, const hr2di_row_sums *rows) {
+hr2d_status hr2di_closure_set(hr2di_transport *t, const hr2di_row_sums *rows,
+                              const double *absorbed) {
   double *receive, *send;
-  hr2d_status status = make_factors(t, rows, 0, &receive);
+  hr2d_status status = make_factors(t, rows, absorbed, 0, &receive);
   send = receive;
-  if (!status && t->links->directed) status = make_factors(t, rows, 1, &send);
+  if (!status && t->links->directed) status = make_factors(t, rows, absorbed, 1, &send);
   t->receive = receive;
   t->send = send;
   return status ? status : set_rest(t, rows);

@@ -8,9 +8,11 @@
 #include "solve/row-sums.h"
 #include "solve/transport.h"
 
-/* Sets t->receive, t->send and t->closure from the links and the exact row sums.  Returns
-   HR2D_OK, HR2D_ENOMEM or the status of the watch. */
-hr2d_status hr2di_closure_set(hr2di_transport *t, const hr2di_row_sums *rows);
+/* Sets t->receive, t->send and t->closure from the links and the exact row sums.  absorbed: per
+   element, the form factors that its links lose to gas, or NULL.  Returns HR2D_OK, HR2D_ENOMEM
+   or the status of the watch. */
+hr2d_status hr2di_closure_set(hr2di_transport *t, const hr2di_row_sums *rows,
+                              const double *absorbed);
 
 /* At an order above 1, coefficients of d below this part of the row sum are 0, except on
    patches that see patches in every direction. */

@@ -50,13 +50,13 @@ static hr2d_status integrate_rows(hr2di_equation *s) {
   const int background = hr2di_external_wants_sky(s->links->hierarchy->scene);
   if (hr2di_scene_has_gas(s->links->hierarchy->scene))
     return hr2di_gas_rows_set(&s->transport, s->options.closure != HR2D_CLOSURE_OFF,
-                              &s->links->message);
+                              &s->row_sums, &s->links->message);
   if (!closure && !background) return HR2D_OK;
   if (s->transport.order > 1) return integrate_rows_order_p(s, closure, background);
   hr2di_row_sums rows;
   hr2d_status status = hr2di_row_sums_init(&rows, &s->transport, background);
   if (!status && background) status = hr2di_background_set(&s->transport, &rows);
-  if (!status && closure) status = hr2di_closure_set(&s->transport, &rows);
+  if (!status && closure) status = hr2di_closure_set(&s->transport, &rows, NULL);
   s->row_sums = rows.leaves;
   hr2di_row_sums_clear(&rows);
   return status;

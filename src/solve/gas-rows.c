@@ -1,8 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Each block came with the part of its light that is absorbed on the way, ∫∫ G V D φ_l, which
-   has its own digits however thin the gas is: m is their sum. */
+   has its own digits however thin the gas is: m is their sum.  On open patches m has the part
+   of directions without a patch as well: 1 − σ with exact row sums at order 1, so that coarse
+   links make nothing negative; above, 1 − K1 together with the sum. */
 #include "solve/gas-rows.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "base/alloc.h"
@@ -12,6 +15,7 @@
 #include "scene/with-plane.h"
 #include "solve/closure.h"
 #include "solve/gas-light.h"
+#include "solve/row-sums.h"
 #include "visibility/back-visibility.h"
 
 /* Sums over links into t->down, one after the other. */
@@ -34,7 +38,7 @@ static hr2d_status sum_links(hr2di_transport *t) {
   return hr2di_transport_status(t);
 }
 
-/* m = 1 − K1 on leaves of open patches. */
+/* m = 1 − K1 on leaves of open patches, at an order above 1. */
 static void take_rows(hr2di_transport *t) {
   for (size_t k = 0; k < t->leaves; k++) {
     if (t->closed[t->hierarchy->element[t->leaf[k]].patch]) continue;
@@ -43,7 +47,8 @@ static void take_rows(hr2di_transport *t) {
   }
 }
 
-static hr2d_status check_backs(hr2di_transport *t, hr2di_message *message) {
+static hr2d_status check_backs(hr2di_transport *t, const unsigned char *closed,
+                               hr2di_message *message) {
   unsigned char *sees = NULL;
   const hr2d_scene *scene = t->hierarchy->scene;
   hr2di_with_plane with;
@@ -52,7 +57,7 @@ static hr2d_status check_backs(hr2di_transport *t, hr2di_message *message) {
     status = hr2di_back_visibility(&with.scene, &t->alloc, t->threads, &sees, t->watch);
   hr2di_with_plane_clear(&with);
   for (size_t k = 0; k < scene->patches && sees && !status; k++)
-    if (sees[k] && !t->closed[k])
+    if (sees[k] && !closed[k])
       status = hr2di_message_fail(message, HR2D_EUNSUPPORTED,
                                   "%s may see the back of a patch, which in a scene with gas "
                                   "this version does not do: give it both sides",
@@ -75,16 +80,34 @@ static hr2d_status take_heat(hr2di_transport *t, hr2di_message *message) {
   return HR2D_OK;
 }
 
-hr2d_status hr2di_gas_rows_set(hr2di_transport *t, int closed, hr2di_message *message) {
-  const size_t field = t->leaves * t->order;
-  t->gas = hr2di_alloc_zero(&t->alloc, field, sizeof *t->gas);
-  t->gas_order = t->order;
-  if (!t->gas) return HR2D_ENOMEM;
-  hr2d_status status = sum_links(t);
+/* From here on the way is that of closure without gas. */
+static hr2d_status close_order_1(hr2di_transport *t, int closed, uint64_t *leaves,
+                                 hr2di_message *message) {
+  double *absorbed = hr2di_alloc(&t->alloc, t->elements, sizeof *absorbed);
+  hr2di_row_sums rows;
+  if (!absorbed) return HR2D_ENOMEM;
+  memcpy(absorbed, t->down, t->elements * sizeof *absorbed);
+  hr2d_status status = hr2di_row_sums_init(&rows, t, 0);
+  *leaves = rows.leaves;
+  if (!status) t->all_closed = !memchr(rows.closed, 0, t->hierarchy->scene->patches);
+  if (!status && !t->all_closed) status = check_backs(t, rows.closed, message);
+  if (!status && closed) status = hr2di_closure_set(t, &rows, absorbed);
+  memcpy(t->down, absorbed, t->elements * sizeof *absorbed);
   if (!status) hr2di_transport_lower(t, t->gas);
-  if (!status) status = hr2di_transport_status(t);
+  for (size_t k = 0; k < t->leaves && !status; k++) {
+    if (closed) t->closure[k] -= t->gas[k];
+    t->gas[k] += fmax(0, 1 - rows.front[t->leaf[k]]);
+  }
+  hr2di_row_sums_clear(&rows);
+  hr2di_alloc_free(&t->alloc, absorbed);
+  return status ? status : take_heat(t, message);
+}
+
+static hr2d_status close_order_p(hr2di_transport *t, int closed, hr2di_message *message) {
+  hr2di_transport_lower(t, t->gas);
+  hr2d_status status = hr2di_transport_status(t);
   if (!status) status = hr2di_closure_set_order_p(t);
-  if (!status && !t->all_closed) status = check_backs(t, message);
+  if (!status && !t->all_closed) status = check_backs(t, t->closed, message);
   if (!status) status = take_heat(t, message);
   if (status) return status;
   take_rows(t);
@@ -95,4 +118,15 @@ hr2d_status hr2di_gas_rows_set(hr2di_transport *t, int closed, hr2di_message *me
   t->closed = NULL;
   t->all_closed = 0;
   return HR2D_OK;
+}
+
+hr2d_status hr2di_gas_rows_set(hr2di_transport *t, int closed, uint64_t *leaves,
+                               hr2di_message *message) {
+  t->gas = hr2di_alloc_zero(&t->alloc, t->leaves * t->order, sizeof *t->gas);
+  t->gas_order = t->order;
+  if (!t->gas) return HR2D_ENOMEM;
+  hr2d_status status = sum_links(t);
+  if (status) return status;
+  return t->order == 1 ? close_order_1(t, closed, leaves, message)
+                       : close_order_p(t, closed, message);
 }
