@@ -26,6 +26,11 @@ static inline size_t hr2di_relit_band(const hr2d_scene *relit, size_t band) {
   return relit->band_of ? relit->band_of[band] : band % relit->lender->bands;
 }
 
+/* For messages: the number that the caller of the library knows a band by. */
+static inline size_t hr2di_scene_known_band(const hr2d_scene *scene, size_t band) {
+  return scene->lender ? hr2di_relit_band(scene, band) : band;
+}
+
 /* Takes the light of a scene of as many bands, or of a part of them, which repeat.  HR2D_OK or
    the status of the watch, which may be NULL. */
 hr2d_status hr2di_relit_renew(hr2d_scene *relit, const hr2d_scene *scene, hr2di_watch *watch);

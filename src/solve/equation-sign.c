@@ -3,7 +3,7 @@
 #include <math.h>
 
 #include "hierarchy/hierarchy-impl.h"
-#include "scene/scene-impl.h"
+#include "scene/relit-scene.h"
 #include "solve/equation.h"
 #include "solve/gas-light.h"
 
@@ -78,7 +78,7 @@ hr2d_status hr2di_equation_check_sign(hr2di_equation *s) {
           &s->links->message, HR2D_ENOT_CONVERGED,
           "in band %zu the links reflect more light than falls on them, so that "
           "it grows for ever: closure or finer links are needed",
-          b);
+          hr2di_scene_known_band(t->scene, b));
   }
   return HR2D_OK;
 }

@@ -12,7 +12,7 @@
 #include "hierarchy/hierarchy-impl.h"
 #include "links/components.h"
 #include "links/patch-defect.h"
-#include "scene/scene-impl.h"
+#include "scene/relit-scene.h"
 
 typedef struct exchange {
   hr2di_components components;
@@ -66,7 +66,7 @@ static hr2d_status refuse(hr2d_linkset *links, const hr2d_scene *scene, size_t p
   return hr2di_message_fail(&links->message, HR2D_ENO_SOLUTION,
                             "no solution in band %zu: %s emits into a closed part of the scene "
                             "where every reflectance is 1, so that light has nowhere to go",
-                            band, label.text);
+                            hr2di_scene_known_band(scene, band), label.text);
 }
 
 /* Exchange over links of clusters is known to their accuracy only. */
