@@ -37,7 +37,9 @@
  * **Points.** hr2d_solution_gather() and its companions, and hr2d_field_at() and
  * hr2d_field_on_grid() see through gas. The mean M around a point has Ki₂ in the place of
  * (4/π)Ki₃; the gas there gives 4κ(E_g − M) per area of the section, or πκ(E_g − M) in a flat
- * world, which is ∇·q for a code of fluid dynamics. Nodes of a grid are all exact.
+ * world, which is ∇·q for a code of fluid dynamics. A grid with a tolerance has borders of
+ * light where a wall goes out of sight, also before walls as bright: gas in front of them is as
+ * deep as they are far.
  *
  * **What goes through gas.** hr2d_solve(), hr2d_solve_to(), what is read from their solutions,
  * and points as above, with their errors. In a scene with gas these return HR2D_EUNSUPPORTED,

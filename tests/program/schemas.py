@@ -298,7 +298,7 @@ VALUES = [None, True, 0, 1, -1, 0.5, 300, "both", "mirror", "Feature", "LineStri
 WORDS = ["emission", "reflectance", "temperature", "flux", "emissivity", "sides", "faces", "name", "hr2d", "sun",
          "sky", "period", "medium", "background", "background_temperature", "wavelengths", "bearing", "direction",
          "irradiance", "geometry", "properties", "type", "coordinates", "geometries", "features", "other",
-         "transmittance", "shield", "back", "absorption", "section"]
+         "transmittance", "shield", "back", "absorption", "section", "weights"]
 
 
 def harm(document, source):

@@ -143,3 +143,14 @@ void test_same_counts(const hr2d_refine_counts *one, const hr2d_refine_counts *o
   ck_assert_uint_eq(one->exchange_areas, other->exchange_areas);
   ck_assert_uint_eq(one->levels, other->levels);
 }
+
+hr2d_solution *test_solve_to(const hr2d_scene *scene, double error, unsigned threads,
+                             hr2d_account *account) {
+  hr2d_target target = HR2D_TARGET_INIT;
+  hr2d_solution *solution = NULL;
+  target.error = error;
+  target.threads = threads;
+  const hr2d_status status = hr2d_solve_to(scene, &target, &solution, account);
+  ck_assert_msg(!status, "%s: %s", hr2d_strerror(status), account->reason);
+  return solution;
+}

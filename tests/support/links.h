@@ -35,6 +35,10 @@ void test_refuse(const test_links *t, const hr2d_refine_options *options, hr2d_s
 hr2d_solution *test_solve(const test_links *t, int closure);
 hr2d_solution *test_solve_by(const test_links *t, const hr2d_solve_options *options);
 
+/* hr2d_solve_to() a target in averages, which is reached. */
+hr2d_solution *test_solve_to(const hr2d_scene *scene, double error, unsigned threads,
+                             hr2d_account *account);
+
 /* The largest relative error of the averages of all patches; the rows of their scene in the
    table begin at `row`. */
 double test_average_error(const test_links *t, const hr2d_solution *solution,

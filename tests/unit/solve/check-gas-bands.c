@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Gas that absorbs more in one band than in another: each band is as in a scene of its own; and
    weights, by which bands divide the emission of black bodies. */
+#include <inttypes.h>
 #include <math.h>
 #include <string.h>
 
+#include "scene/scene-impl.h"
 #include "support/support.h"
 
 enum { BANDS = 4, PATCHES = 6, FRONTS = 7, CASES = 6 };
@@ -12,11 +14,12 @@ enum { BANDS = 4, PATCHES = 6, FRONTS = 7, CASES = 6 };
 typedef struct spectrum {
   double kappa[BANDS], hot[BANDS], background[BANDS];
   double emission[PATCHES][BANDS], reflectance[PATCHES][BANDS], transmittance[BANDS];
+  int grey; /* the first κ is that of all bands, and is given once */
 } spectrum;
 
 static spectrum draw_spectrum(int n) {
   randoms r = randoms_stream(test_seed(), n);
-  spectrum s = {{0}, {0}, {0}, {{0}}, {{0}}, {0}};
+  spectrum s = {{0}, {0}, {0}, {{0}}, {{0}}, {0}, 0};
   for (size_t b = 0; b < BANDS; b++) {
     s.kappa[b] = b == 1 ? 0 : random_power(&r, -3, 1.5);
     s.hot[b] = random_unit(&r);
@@ -54,23 +57,13 @@ static hr2d_scene *draw(const spectrum *s, int n, size_t from, size_t bands) {
   hr2d_gas gas = HR2D_GAS_INIT;
   gas.absorption = s->kappa + from;
   gas.emission = s->hot + from;
-  gas.absorption_bands = gas.emission_bands = bands;
+  gas.absorption_bands = s->grey ? 1 : bands;
+  gas.emission_bands = bands;
   gas.section = n % 3 ? HR2D_SECTION_LONG : HR2D_SECTION_FLAT;
   ck_assert_int_eq(hr2d_scene_add_gas(scene, &gas, NULL), HR2D_OK);
   ck_assert_int_eq(hr2d_scene_set_background(scene, s->background + from, bands), HR2D_OK);
   test_commit(scene);
   return scene;
-}
-
-static hr2d_solution *solve_to(const hr2d_scene *scene, double error, unsigned threads,
-                               hr2d_account *account) {
-  hr2d_target target = HR2D_TARGET_INIT;
-  hr2d_solution *solution = NULL;
-  target.error = error;
-  target.threads = threads;
-  const hr2d_status status = hr2d_solve_to(scene, &target, &solution, account);
-  ck_assert_msg(!status, "%s: %s", hr2d_strerror(status), account->reason);
-  return solution;
 }
 
 static void expect_near(double is, double right, double scale, double error, const char *what) {
@@ -118,10 +111,10 @@ START_TEST(bands_are_scenes_of_their_own) {
     hr2d_account account, of_one;
     hr2d_scene *scene = draw(&s, n, 0, BANDS);
     const size_t patches = hr2d_scene_patches(scene);
-    hr2d_solution *all = solve_to(scene, 1e-9, 1, &account);
+    hr2d_solution *all = test_solve_to(scene, 1e-9, 1, &account);
     for (size_t b = 0; b < BANDS; b++) {
       hr2d_scene *alone = draw(&s, n, b, 1);
-      hr2d_solution *one = solve_to(alone, 1e-9, 1, &of_one);
+      hr2d_solution *one = test_solve_to(alone, 1e-9, 1, &of_one);
       expect_band(all, b, one, patches, 2e-9);
       differs = fmax(differs, fabs(hr2d_solution_average(all, 0, (b + 1) % BANDS) -
                                    hr2d_solution_average(one, 0, 0)));
@@ -145,8 +138,8 @@ START_TEST(threads_and_equal_bands_change_no_bit) {
   spectrum s = draw_spectrum(0), even = s;
   hr2d_account account;
   hr2d_scene *scene = draw(&s, 0, 0, BANDS);
-  hr2d_solution *one = solve_to(scene, 1e-8, 1, &account),
-                *four = solve_to(scene, 1e-8, 4, &account);
+  hr2d_solution *one = test_solve_to(scene, 1e-8, 1, &account),
+                *four = test_solve_to(scene, 1e-8, 4, &account);
   expect_same_bits(one, four);
   hr2d_solution_destroy(one);
   hr2d_solution_destroy(four);
@@ -154,14 +147,95 @@ START_TEST(threads_and_equal_bands_change_no_bit) {
   /* κ in each band, or once. */
   for (size_t b = 0; b < BANDS; b++) even.kappa[b] = 0.5;
   scene = draw(&even, 0, 0, BANDS);
-  one = solve_to(scene, 1e-8, 1, &account);
+  one = test_solve_to(scene, 1e-8, 1, &account);
+  even.grey = 1;
   hr2d_scene *other = draw(&even, 0, 0, BANDS);
-  four = solve_to(other, 1e-8, 1, &account);
+  four = test_solve_to(other, 1e-8, 1, &account);
   expect_same_bits(one, four);
   hr2d_solution_destroy(one);
   hr2d_solution_destroy(four);
   hr2d_scene_destroy(scene);
   hr2d_scene_destroy(other);
+}
+END_TEST
+
+/* By how much a band of a grid is off, as a part of its range. */
+static double grid_error(const double *exact, const double *near, size_t nodes, size_t band) {
+  double least = HUGE_VAL, most = 0, off = 0;
+  for (size_t k = band; k < nodes * BANDS; k += BANDS) {
+    ck_assert_int_eq(isnan(exact[k]), isnan(near[k]));
+    if (isnan(exact[k])) continue;
+    least = fmin(least, exact[k]);
+    most = fmax(most, exact[k]);
+    off = fmax(off, fabs(exact[k] - near[k]));
+  }
+  return off / (most - least + 1e-12 * most);
+}
+
+/* Nodes are interpolated between borders of light, which gas makes where all walls are as
+   bright, too; order 1 has many leaves that are taken as a whole. */
+START_TEST(grids_are_within_their_tolerance) {
+  enum { WIDE = 64, HIGH = 47, NODES = WIDE * HIGH };
+  static double exact[NODES * BANDS], near[NODES * BANDS];
+  double worst = 0;
+  uint64_t interpolated = 0;
+  for (int n = 0; n < test_count(2 * CASES); n++) {
+    spectrum s = draw_spectrum(n);
+    for (size_t k = 0; k < PATCHES * BANDS; k++) {
+      const size_t p = k / BANDS, b = k % BANDS;
+      s.reflectance[p][b] *= n % 4 < 3 ? 0.3 : 0; /* few links may reflect too much */
+      if (n % 4 == 3) s.emission[p][b] = 1;
+    }
+    test_links links = test_make_links(draw(&s, n, 0, BANDS), NULL, NULL, NULL, NULL);
+    ck_assert_int_eq(hr2d_hierarchy_set_order(links.hierarchy, n % 3 ? 1 : 4), HR2D_OK);
+    test_refine(&links, 0.1, 24);
+    hr2d_solution *solution = test_solve(&links, 0);
+    hr2d_field_values values = HR2D_FIELD_VALUES_INIT;
+    hr2d_field_counts counts;
+    hr2d_field_grid grid = {sizeof grid, {-0.1, -0.2}, {3.1, 2.1}, WIDE, HIGH, 0};
+    values.mean = exact;
+    ck_assert_int_eq(hr2d_field_on_grid(solution, &grid, NULL, &values, NULL), HR2D_OK);
+    for (grid.tolerance = 1e-2; grid.tolerance > 1e-4; grid.tolerance /= 4) {
+      values.mean = near;
+      ck_assert_int_eq(hr2d_field_on_grid(solution, &grid, NULL, &values, &counts), HR2D_OK);
+      interpolated += counts.interpolated;
+      for (size_t b = 0; b < BANDS; b++) {
+        const double part = grid_error(exact, near, NODES, b) / grid.tolerance;
+        ck_assert_msg(part <= 1, "case %d, band %zu: %g of %g", n, b, part, grid.tolerance);
+        worst = fmax(worst, part);
+      }
+    }
+    hr2d_solution_destroy(solution);
+    test_free_links(&links);
+  }
+  printf("nodes are off by at most %.2f of the tolerance, %" PRIu64 " of them interpolated\n",
+         worst, interpolated);
+  ck_assert_double_gt(worst, 0.2); /* negative control: it was made use of */
+  ck_assert_uint_gt(interpolated, 0);
+}
+END_TEST
+
+/* Bands that share an absorption have numbers of their own inside: messages do not say these.
+ */
+START_TEST(messages_have_the_numbers_of_bands) {
+  const hr2d_point corner[4] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  double kappa[2] = {0.5, 0};
+  hr2d_scene *scene = test_new_scene(NULL);
+  hr2d_gas gas = HR2D_GAS_INIT;
+  hr2d_solution *solution = NULL;
+  gas.absorption = kappa;
+  gas.absorption_bands = 2;
+  for (size_t k = 0; k < 4; k++) {
+    const hr2d_segment at = {corner[k], corner[(k + 1) % 4]};
+    ck_assert_int_eq(test_add_patch(scene, at, 1, 1, HR2D_SIDES_FRONT), HR2D_OK);
+  }
+  ck_assert_int_eq(hr2d_scene_add_gas(scene, &gas, NULL), HR2D_OK);
+  test_commit(scene);
+  test_links links = test_make_links(scene, NULL, NULL, NULL, NULL);
+  test_refine(&links, 0.5, 24);
+  ck_assert_int_eq(hr2d_solve(links.links, NULL, &solution), HR2D_ENO_SOLUTION);
+  ck_assert_ptr_nonnull(strstr(hr2d_linkset_message(links.links), "in band 1:"));
+  test_free_links(&links);
 }
 END_TEST
 
@@ -244,7 +318,7 @@ START_TEST(weights_are_those_of_grey_gases) {
   hr2d_scene *scene = draw_furnace(cold, 1, hot);
   test_commit(scene);
   ck_assert_uint_eq(hr2d_scene_bands(scene), GREYS + 1);
-  hr2d_solution *s = solve_to(scene, 1e-10, 1, &account);
+  hr2d_solution *s = test_solve_to(scene, 1e-10, 1, &account);
   double emission, heat, all = 0;
   for (size_t g = 0; g < GREYS; g++) {
     ck_assert_int_eq(hr2d_solution_gas(s, 0, g + 1, &emission, &heat), HR2D_OK);
@@ -273,7 +347,7 @@ START_TEST(one_temperature_is_equilibrium) {
   for (int grey = 0; grey < 2; grey++) {
     hr2d_scene *scene = draw_furnace(1100, grey ? 0.3 : 1, 1100);
     test_commit(scene);
-    hr2d_solution *s = solve_to(scene, 1e-9, 1, &account);
+    hr2d_solution *s = test_solve_to(scene, 1e-9, 1, &account);
     double parts = 0;
     for (size_t b = 0; b <= GREYS; b++) {
       const double part = b ? weight_of(b - 1, 1100)
@@ -287,6 +361,28 @@ START_TEST(one_temperature_is_equilibrium) {
     hr2d_solution_destroy(s);
     hr2d_scene_destroy(scene);
   }
+}
+END_TEST
+
+/* The derivative of aσT⁴ by σT⁴, against central differences. */
+START_TEST(weights_rise_with_temperature) {
+  hr2d_scene *scene = test_new_scene(NULL);
+  ck_assert_int_eq(hr2d_scene_set_weights(scene, smith, GREYS, TERMS), HR2D_OK);
+  for (double kelvin = 600; kelvin < 2400; kelvin += 100) {
+    const double low = kelvin * (1 - 1e-5), high = kelvin * (1 + 1e-5);
+    double parts = 0, rises = 0;
+    for (size_t b = 0; b <= GREYS; b++) {
+      const double rise = (hr2di_scene_band_part(scene, high, b) * hr2d_black_body(high) -
+                           hr2di_scene_band_part(scene, low, b) * hr2d_black_body(low)) /
+                          (hr2d_black_body(high) - hr2d_black_body(low));
+      ck_assert_double_eq_tol(hr2di_scene_band_rise(scene, kelvin, b), rise, 1e-9);
+      parts += hr2di_scene_band_part(scene, kelvin, b);
+      rises += hr2di_scene_band_rise(scene, kelvin, b);
+    }
+    ck_assert_double_eq_tol(parts, 1, 1e-15);
+    ck_assert_double_eq_tol(rises, 1, 1e-15);
+  }
+  hr2d_scene_destroy(scene);
 }
 END_TEST
 
@@ -355,7 +451,8 @@ END_TEST
 
 TEST_SUITE("gas bands") {
   ADD_TESTS("bands", bands_are_scenes_of_their_own, threads_and_equal_bands_change_no_bit,
+            grids_are_within_their_tolerance, messages_have_the_numbers_of_bands,
             links_serve_all_bands, absorptions_are_limited);
   ADD_TESTS("weights", weights_are_those_of_grey_gases, one_temperature_is_equilibrium,
-            wrong_weights_are_refused);
+            weights_rise_with_temperature, wrong_weights_are_refused);
 }

@@ -66,17 +66,6 @@ static hr2d_scene *draw(const room *r) {
   return scene;
 }
 
-static hr2d_solution *solve_to(const hr2d_scene *scene, double error, unsigned threads,
-                               hr2d_account *account) {
-  hr2d_target target = HR2D_TARGET_INIT;
-  hr2d_solution *solution = NULL;
-  target.error = error;
-  target.threads = threads;
-  const hr2d_status status = hr2d_solve_to(scene, &target, &solution, account);
-  ck_assert_msg(!status, "%s: %s", hr2d_strerror(status), account->reason);
-  return solution;
-}
-
 /* The heat that leaves a wall. */
 static double heat_of(const hr2d_solution *s, const hr2d_scene *scene, size_t wall) {
   return hr2d_solution_net_flux(s, wall, 0) * hr2d_scene_length(scene, wall);
@@ -157,7 +146,7 @@ START_TEST(gas_without_heat_finds_its_temperature) {
     const struct known *k = &adiabatic[n];
     hr2d_account account;
     hr2d_scene *scene = draw(&k->room);
-    hr2d_solution *s = solve_to(scene, 1e-12, 1, &account);
+    hr2d_solution *s = test_solve_to(scene, 1e-12, 1, &account);
     for (size_t w = 0; w < k->room.walls; w++)
       worst = fmax(worst, fabs(heat_of(s, scene, w) - k->wall[w]));
     worst = fmax(worst, fabs(gas_emission(s) - k->gas));
@@ -180,12 +169,12 @@ START_TEST(given_heat_and_given_temperature_agree) {
     for (size_t w = 0; w < r.walls; w++) r.reflectance[w] = n % 3 ? random_unit(&draws) : w > 0;
     hr2d_account account;
     hr2d_scene *scene = draw(&r);
-    hr2d_solution *s = solve_to(scene, 1e-9, 1, &account);
+    hr2d_solution *s = test_solve_to(scene, 1e-9, 1, &account);
     room given = r;
     given.free = 0;
     given.gas = gas_emission(s);
     hr2d_scene *other = draw(&given);
-    hr2d_solution *t = solve_to(other, 1e-9, 1, &account);
+    hr2d_solution *t = test_solve_to(other, 1e-9, 1, &account);
     ck_assert_double_eq_tol(gas_heat(t) / r.gas, 1, 1e-7);
     ck_assert(gas_heat(s) == r.gas);
     const hr2d_power p = hr2d_solution_power(s, 0);
@@ -247,7 +236,7 @@ START_TEST(rooms_of_independent_programs) {
     const struct known *k = &known[n];
     hr2d_account account;
     hr2d_scene *scene = draw(&k->room);
-    hr2d_solution *s = solve_to(scene, 1e-12, 1, &account);
+    hr2d_solution *s = test_solve_to(scene, 1e-12, 1, &account);
     for (size_t w = 0; w < k->room.walls; w++)
       worst = fmax(worst, fabs(heat_of(s, scene, w) - k->wall[w]));
     worst = fmax(worst, fabs(gas_heat(s) - k->gas));
@@ -268,8 +257,8 @@ START_TEST(thick_gas_reaches_its_targets) {
           ELL, {.3, 0, 1, 0, 0, .1}, {.5, .5, .9, 0, .8, .2}, kappa, hot, HR2D_SECTION_LONG, 0};
       hr2d_account account;
       hr2d_scene *scene = draw(&r);
-      hr2d_solution *fine = solve_to(scene, 1e-10, 1, &account);
-      hr2d_solution *s = solve_to(scene, 1e-4, 1, &account);
+      hr2d_solution *fine = test_solve_to(scene, 1e-10, 1, &account);
+      hr2d_solution *s = test_solve_to(scene, 1e-4, 1, &account);
       double largest = 0;
       for (size_t w = 0; w < r.walls; w++)
         largest = fmax(largest, hr2d_solution_average(s, w, 0));
@@ -294,7 +283,7 @@ START_TEST(bounds_hold_at_every_target) {
       const struct known *k = &known[n];
       hr2d_account account;
       hr2d_scene *scene = draw(&k->room);
-      hr2d_solution *s = solve_to(scene, error, 1, &account);
+      hr2d_solution *s = test_solve_to(scene, error, 1, &account);
       double worst = 0, largest = 0;
       for (size_t w = 0; w < k->room.walls; w++)
         largest = fmax(largest, hr2d_solution_irradiance(s, w, 0));
@@ -373,7 +362,7 @@ START_TEST(thin_gas_emits_by_its_volume) {
       const room r = {ELL, {0}, {0}, kappa, 1, (hr2d_section)flat, 0};
       hr2d_account account;
       hr2d_scene *scene = draw(&r);
-      hr2d_solution *s = solve_to(scene, 1e-12, 1, &account);
+      hr2d_solution *s = test_solve_to(scene, 1e-12, 1, &account);
       const double off = gas_heat(s) / emitted - 1;
       /* chords are shorter than 3, and so are the means of them that gas makes of itself */
       ck_assert_double_lt(fabs(off), 2 * kappa + 1e-14);
@@ -395,7 +384,7 @@ START_TEST(thin_gas_between_white_walls_keeps_its_digits) {
     const room r = {SQUARE, {0}, {0, 1, 1, 1}, kappa, 1, HR2D_SECTION_LONG, 0};
     hr2d_account account;
     hr2d_scene *scene = draw(&r);
-    hr2d_solution *s = solve_to(scene, 1e-9, 1, &account);
+    hr2d_solution *s = test_solve_to(scene, 1e-9, 1, &account);
     ck_assert_double_eq_tol(-heat_of(s, scene, 0) / gas_heat(s), 1, 1e-12);
     ck_assert_double_eq_tol(gas_heat(s) / (4 * kappa), 1, 10 * kappa + 1e-9);
     hr2d_solution_destroy(s);
@@ -435,7 +424,7 @@ START_TEST(thick_gas_is_a_black_body) {
                   0};
   hr2d_account account;
   hr2d_scene *scene = draw(&r);
-  hr2d_solution *s = solve_to(scene, 1e-10, 1, &account);
+  hr2d_solution *s = test_solve_to(scene, 1e-10, 1, &account);
   for (size_t w = 0; w < r.walls; w++) {
     ck_assert_double_eq_tol(hr2d_solution_irradiance(s, w, 0), 2, 1e-8);
   }
@@ -467,7 +456,7 @@ START_TEST(open_scenes_end_in_gas) {
     ck_assert_int_eq(hr2d_scene_add_gas(scene, &gas, NULL), HR2D_OK);
     test_commit(scene);
     hr2d_account account;
-    hr2d_solution *s = solve_to(scene, 1e-12, 1, &account);
+    hr2d_solution *s = test_solve_to(scene, 1e-12, 1, &account);
     /* the upper plate sees B = 1 and gas; the lower one misses what the upper does not send */
     ck_assert_double_eq_tol(hr2d_solution_irradiance(s, 1, 0), 1, 1e-13);
     const double missed = 1 - hr2d_solution_irradiance(s, 0, 0);
@@ -501,7 +490,7 @@ START_TEST(points_see_through_gas) {
     }
     hr2d_account account;
     hr2d_scene *scene = draw(&r);
-    hr2d_solution *s = solve_to(scene, 1e-10, 1, &account);
+    hr2d_solution *s = test_solve_to(scene, 1e-10, 1, &account);
     for (size_t w = 0; w < r.walls; w++) {
       enum { PANELS = 12, POINTS = 16 };
       double sum = 0;
@@ -574,7 +563,7 @@ START_TEST(the_field_has_the_heat_of_the_gas) {
                     free};
     hr2d_account account;
     hr2d_scene *scene = draw(&r);
-    hr2d_solution *s = solve_to(scene, 1e-9, 1, &account);
+    hr2d_solution *s = test_solve_to(scene, 1e-9, 1, &account);
     const double factor = flat ? 3.14159265358979323846 : 4;
     const double by_field = heat_by_field(s, r.kappa, factor);
     ck_assert_double_eq_tol(by_field / r.kappa, gas_heat(s) / r.kappa, 3e-6);
@@ -628,8 +617,8 @@ START_TEST(mirrors_stand_in_gas) {
     ck_assert_int_eq(hr2d_scene_add_gas(half, &gas, NULL), HR2D_OK);
     ck_assert_int_eq(hr2d_scene_add_mirror(half, (hr2d_segment){{0, 0}, {0, 1}}), HR2D_OK);
     test_commit(half);
-    hr2d_solution *s = solve_to(whole, 1e-9, 1, &account),
-                  *t = solve_to(half, 1e-9, 1, &account);
+    hr2d_solution *s = test_solve_to(whole, 1e-9, 1, &account),
+                  *t = test_solve_to(half, 1e-9, 1, &account);
     for (size_t w = 0; w < 3; w++)
       ck_assert_double_eq_tol(
           hr2d_solution_irradiance(t, w, 0) / hr2d_solution_irradiance(s, w, 0), 1, 1e-8);
@@ -656,7 +645,7 @@ static void expect_same(const room *r, const hr2d_gas *gas, int forces) {
     if (k && gas) ck_assert_int_eq(hr2d_scene_add_gas(scene[k], gas, NULL), HR2D_OK);
     if (k && forces) ck_assert_int_eq(hr2d_scene_force(scene[k], HR2D_EFFECT_MEDIUM), HR2D_OK);
     test_commit(scene[k]);
-    s[k] = solve_to(scene[k], 1e-9, 1, &account[k]);
+    s[k] = test_solve_to(scene[k], 1e-9, 1, &account[k]);
   }
   ck_assert_uint_eq(hr2d_solution_field_size(s[0]), hr2d_solution_field_size(s[1]));
   ck_assert(!memcmp(hr2d_solution_field(s[0]), hr2d_solution_field(s[1]),
@@ -686,8 +675,8 @@ START_TEST(no_gas_changes_no_bit) {
   thin.kappa = 1e-6;
   hr2d_account account;
   hr2d_scene *scene = draw(&thin), *clear = draw(&r);
-  hr2d_solution *s = solve_to(scene, 1e-9, 1, &account),
-                *t = solve_to(clear, 1e-9, 1, &account);
+  hr2d_solution *s = test_solve_to(scene, 1e-9, 1, &account),
+                *t = test_solve_to(clear, 1e-9, 1, &account);
   ck_assert(hr2d_solution_average(s, 2, 0) != hr2d_solution_average(t, 2, 0));
   hr2d_solution_destroy(s);
   hr2d_solution_destroy(t);
@@ -702,8 +691,8 @@ START_TEST(threads_change_no_bit) {
   for (size_t w = 0; w < grey.walls; w++) grey.reflectance[w] = 0.5;
   hr2d_account account;
   hr2d_scene *scene = draw(&grey);
-  hr2d_solution *one = solve_to(scene, 1e-10, 1, &account);
-  hr2d_solution *four = solve_to(scene, 1e-10, 4, &account);
+  hr2d_solution *one = test_solve_to(scene, 1e-10, 1, &account);
+  hr2d_solution *four = test_solve_to(scene, 1e-10, 4, &account);
   ck_assert_uint_eq(hr2d_solution_field_size(one), hr2d_solution_field_size(four));
   ck_assert(!memcmp(hr2d_solution_field(one), hr2d_solution_field(four),
                     hr2d_solution_field_size(one) * sizeof(double)));
