@@ -197,6 +197,7 @@ libhr2d_core_la_SOURCES = \
 	src/clusters/expansion.c src/clusters/expansion.h \
 	src/clusters/facing.c src/clusters/facing.h \
 	src/clusters/far-exchange.c \
+	src/clusters/gas-series.c src/clusters/gas-series.h \
 	src/clusters/interpolation.c src/clusters/interpolation.h \
 	src/clusters/levels.c \
 	src/clusters/occlusion.c src/clusters/occlusion.h \

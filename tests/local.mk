@@ -85,6 +85,7 @@ SUITES = \
 	tests/unit/field/check-past-ends.c \
 	tests/unit/solve/check-gas.c \
 	tests/unit/solve/check-gas-bands.c \
+	tests/unit/solve/check-gas-clusters.c \
 	tests/unit/solve/check-solve.c \
 	tests/unit/solve/check-background.c \
 	tests/unit/solve/check-sky.c \

@@ -48,8 +48,7 @@
  * shares, and predictions. So does hr2d_scene_commit() if the scene has light of a background,
  * a sky or a sun in a band that gas absorbs, a period of which images are cut off, more than
  * 256 different κ, patches of given flux in several bands, or a gas of given heat in several
- * bands; and hr2d_solve() if patches see the backs of others. Far pairs of patches are not
- * clustered.
+ * bands; and hr2d_solve() if patches see the backs of others.
  *
  * Exchange areas of links (hr2d_link::exchange_area) are those without gas.
  * @{

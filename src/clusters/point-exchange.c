@@ -26,6 +26,42 @@ HR2DI_WIDE(fill_row,
            (row *restrict t, hr2d_point x, const hr2d_point *restrict y, size_t count),
            (t, x, y, count))
 
+/* The part of a row that gas leaves or takes: Clenshaw's sum of the series, for all points of
+   the row at a time. */
+HR2DI_PART void dim_row_loop(row *restrict t, hr2d_point x, const hr2d_point *restrict y,
+                             size_t count, const hr2di_gas_series *restrict gas) {
+  double at[HR2DI_CLUSTER_POINTS], sum[2][HR2DI_CLUSTER_POINTS];
+  const double middle = 0.5 * (gas->high + gas->low), half = 0.5 * (gas->high - gas->low);
+  const double scale = half > 0 ? 1 / half : 0;
+  double *last = sum[0], *before = sum[1];
+  for (size_t k = 0; k < count; k++) {
+    const double dx = y[k].x - x.x, dy = y[k].y - x.y;
+    at[k] = (sqrt(dx * dx + dy * dy) - middle) * scale;
+    sum[0][k] = sum[1][k] = 0;
+  }
+  for (size_t n = gas->terms; n-- > 1;) {
+    for (size_t k = 0; k < count; k++) before[k] = gas->c[n] + 2 * at[k] * last[k] - before[k];
+    double *swap = last;
+    last = before;
+    before = swap;
+  }
+  for (size_t k = 0; k < count; k++) {
+    const double part = gas->c[0] + at[k] * last[k] - before[k];
+    t->xx[k] *= part;
+    t->xy[k] *= part;
+    t->yy[k] *= part;
+  }
+}
+HR2DI_WIDE(dim_row,
+           (row *restrict t, hr2d_point x, const hr2d_point *restrict y, size_t count,
+            const hr2di_gas_series *restrict gas),
+           (t, x, y, count, gas))
+
+static uint64_t units_of(size_t points, size_t bands, const hr2di_gas_series *gas,
+                         size_t each) {
+  return 1 + points * (1 + bands + (gas ? gas->terms / 4 : 0)) / each;
+}
+
 /* One band of a row, both ways.  Sums are four side by side. */
 HR2DI_PART void exchange_row_loop(const row *restrict t, size_t count, const double sent[2],
                                   const double *restrict sent_x, const double *restrict sent_y,
@@ -56,12 +92,13 @@ HR2DI_WIDE(exchange_row,
            (t, count, sent, sent_x, sent_y, received, received_x, received_y))
 
 void hr2di_points_exchange(const hr2di_points *i, const hr2di_points *j, size_t bands,
-                           hr2di_watch *watch) {
+                           const hr2di_gas_series *gas, hr2di_watch *watch) {
   const size_t m = i->count, n = j->count;
   row t;
   for (size_t k = 0; k < m; k++) {
-    if (hr2di_watch_work(watch, 1 + n * (1 + bands) / 16)) return;
+    if (hr2di_watch_work(watch, units_of(n, bands, gas, 16))) return;
     fill_row(&t, i->point[k], j->point, n);
+    if (gas) dim_row(&t, i->point[k], j->point, n, gas);
     for (size_t band = 0; band < bands; band++) {
       const size_t x = band, y = bands + band;
       const double sent[] = {i->sent[x * m + k], i->sent[y * m + k]};
@@ -75,12 +112,13 @@ void hr2di_points_exchange(const hr2di_points *i, const hr2di_points *j, size_t 
 }
 
 void hr2di_points_receive(const hr2di_points *i, const hr2di_points *j, size_t bands,
-                          hr2di_watch *watch) {
+                          const hr2di_gas_series *gas, hr2di_watch *watch) {
   const size_t m = i->count, n = j->count;
   row t;
   for (size_t k = 0; k < m; k++) {
-    if (hr2di_watch_work(watch, 1 + n * (1 + bands) / 32)) return;
+    if (hr2di_watch_work(watch, units_of(n, bands, gas, 32))) return;
     fill_row(&t, i->point[k], j->point, n);
+    if (gas) dim_row(&t, i->point[k], j->point, n, gas);
     for (size_t band = 0; band < bands; band++) {
       const double *sent_x = j->sent + band * n, *sent_y = j->sent + (bands + band) * n;
       double x = 0, y = 0;

@@ -6,6 +6,7 @@
 #include <hr2d/scene.h>
 
 #include "base/watch.h"
+#include "clusters/gas-series.h"
 
 /* Of a cluster.  Values are per plane and point: x components of all bands, then y. */
 typedef struct hr2di_points {
@@ -15,12 +16,13 @@ typedef struct hr2di_points {
   double *received;
 } hr2di_points;
 
-/* Adds what each of two clusters receives from the other; ends early if the watch stops. */
+/* Adds what each of two clusters receives from the other; ends early if the watch stops.  gas:
+   NULL if there is none. */
 void hr2di_points_exchange(const hr2di_points *i, const hr2di_points *j, size_t bands,
-                           hr2di_watch *watch);
+                           const hr2di_gas_series *gas, hr2di_watch *watch);
 
 /* What the first one receives alone, with sums in another order. */
 void hr2di_points_receive(const hr2di_points *i, const hr2di_points *j, size_t bands,
-                          hr2di_watch *watch);
+                          const hr2di_gas_series *gas, hr2di_watch *watch);
 
 #endif

@@ -35,6 +35,7 @@ typedef struct worker {
 typedef struct gather {
   const hr2di_clusters *c;
   size_t order, bands, planes;
+  hr2di_cluster_gas gas;
   size_t field;      /* values of all clusters */
   hr2d_share *share; /* NULL: there is but one */
   double *sent;
@@ -226,12 +227,19 @@ static void exchange_slice(void *ctx, size_t number, size_t slice) {
     const hr2di_cluster_link *link = &g->c->link[k];
     const hr2di_points i = points_of(g, link->first, received),
                        j = points_of(g, link->second, received);
+    hr2di_gas_series series;
+    const hr2di_gas_series *gas = NULL;
+    if (g->gas.absorption > 0) {
+      hr2di_gas_series_init(&series, &g->gas, g->c->accuracy, i.point, i.count, j.point,
+                            j.count);
+      gas = &series;
+    }
     if (!g->share) {
-      hr2di_points_exchange(&i, &j, g->bands, watch);
+      hr2di_points_exchange(&i, &j, g->bands, gas, watch);
       continue;
     }
-    if (is_own(g, link->first)) hr2di_points_receive(&i, &j, g->bands, watch);
-    if (is_own(g, link->second)) hr2di_points_receive(&j, &i, g->bands, watch);
+    if (is_own(g, link->first)) hr2di_points_receive(&i, &j, g->bands, gas, watch);
+    if (is_own(g, link->second)) hr2di_points_receive(&j, &i, g->bands, gas, watch);
   }
 }
 
@@ -343,6 +351,14 @@ static void dismiss(gather *g) {
   }
 }
 
+hr2di_cluster_gas hr2di_cluster_gas_of(const hr2d_scene *scene, int absorbed) {
+  hr2di_cluster_gas gas = {.absorbed = absorbed};
+  if (!hr2di_scene_has_gas(scene)) return gas;
+  gas.section = hr2di_scene_section(scene);
+  gas.absorption = hr2di_scene_scaled_range(scene).most;
+  return gas;
+}
+
 hr2d_status hr2di_clusters_gather(hr2di_clusters *clusters, const hr2di_cluster_gather *how,
                                   const double *radiosity, double *power) {
   if (clusters->links == 0) return HR2D_OK;
@@ -350,6 +366,7 @@ hr2d_status hr2di_clusters_gather(hr2di_clusters *clusters, const hr2di_cluster_
   gather g = {.c = clusters,
               .order = how->order,
               .bands = how->bands,
+              .gas = how->gas,
               .planes = 2 * how->bands,
               .share = how->share,
               .radiosity = radiosity,

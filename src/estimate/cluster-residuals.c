@@ -1,7 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* With C and C⁺ over the links of clusters and averages B̄ of patches, the residual that is
    theirs is ρ((C⁺ − C)B̄ − d B̄), where closure makes d = (C⁺ − C)1 of patches that see patches
-   in every direction.  Elements hardly matter to it, as clusters are far away from them. */
+   in every direction.  Elements hardly matter to it, as clusters are far away from them.
+
+   In gas of emission E they send a part m of that, too, and d = (C⁺ + m⁺ − C − m)1; where
+   patches are open m is 1 − C1. */
 #include "estimate/cluster-residuals.h"
 
 #include <math.h>
@@ -21,19 +24,33 @@ static void set_fields(const hr2di_estimator *e, double *field) {
   }
 }
 
+/* What all patches get over the links of clusters, and what gas takes of it. */
+typedef struct exchanged {
+  double *power;    /* patches × (bands + 1) */
+  double *absorbed; /* patches, of B = 1; NULL: no gas */
+} exchanged;
+
+static double gas_at(const hr2di_estimator *e, size_t b) {
+  return e->coarse->gas ? ldexp(e->coarse->gas[2 * b], -e->exponent_of[b]) : 0;
+}
+
 /* What H of a patch is off by on average. */
-static double off_at(const hr2di_estimator *e, const double *coarse, const double *fine,
+static double off_at(const hr2di_estimator *e, const exchanged *coarse, const exchanged *fine,
                      size_t patch, size_t b) {
   const hr2di_transport *t = &e->eq.transport;
   const size_t bands = t->bands, at = patch * (bands + 1);
   const int closed = t->closed && t->closed[patch];
-  const double share = closed ? fine[at + bands] - coarse[at + bands] : 0;
-  const double power =
-      fine[at + b] - coarse[at + b] - share * hr2di_estimator_value(e, 0, patch, b);
+  const double arrives = fine->power[at + bands] - coarse->power[at + bands];
+  const double absorbed = !fine->absorbed ? 0
+                          : closed        ? fine->absorbed[patch] - coarse->absorbed[patch]
+                                          : -arrives;
+  const double share = closed ? arrives + absorbed : 0;
+  const double power = fine->power[at + b] - coarse->power[at + b] + absorbed * gas_at(e, b) -
+                       share * hr2di_estimator_value(e, 0, patch, b);
   return fabs(power) / t->hierarchy->scene->patch[patch].length;
 }
 
-static double worst(const hr2di_estimator *e, const double *coarse, const double *fine) {
+static double worst(const hr2di_estimator *e, const exchanged *coarse, const exchanged *fine) {
   const hr2d_scene *scene = e->eq.transport.hierarchy->scene;
   const size_t bands = e->eq.transport.bands;
   double max = 0;
@@ -48,22 +65,42 @@ static double worst(const hr2di_estimator *e, const double *coarse, const double
   return max;
 }
 
+/* unit: 1 of each patch. */
+static hr2d_status exchange(const hr2di_transport *t, hr2di_clusters *clusters,
+                            const double *field, const double *unit, exchanged *to) {
+  hr2di_cluster_gather how = {.order = 1,
+                              .bands = t->bands + 1,
+                              .gas = hr2di_cluster_gas_of(t->hierarchy->scene, 0),
+                              .share = t->links->share,
+                              .threads = t->threads,
+                              .watch = t->watch};
+  hr2d_status status = hr2di_clusters_gather(clusters, &how, field, to->power);
+  if (status || !to->absorbed) return status;
+  how.bands = 1;
+  how.gas.absorbed = 1;
+  return hr2di_clusters_gather(clusters, &how, unit, to->absorbed);
+}
+
 /* All shares call it, and get the same part. */
 hr2d_status hr2di_cluster_residuals(hr2di_estimator *e, hr2di_clusters *coarser, double *part) {
   const hr2di_transport *t = &e->eq.transport;
   hr2d_share *share = t->links->share;
-  const size_t planes = t->bands + 1, size = e->values / t->bands * planes;
-  const hr2di_cluster_gather how = {
-      .order = 1, .bands = planes, .share = share, .threads = t->threads, .watch = t->watch};
+  const size_t patches = e->values / t->bands, size = patches * (t->bands + 1);
   double *field = hr2di_alloc_zero(&t->alloc, size, 3 * sizeof *field);
-  hr2d_status status = hr2di_share_agree(share, field ? HR2D_OK : HR2D_ENOMEM);
+  double *unit = t->gas ? hr2di_alloc_zero(&t->alloc, patches, 3 * sizeof *unit) : NULL;
+  hr2d_status status =
+      hr2di_share_agree(share, field && (unit || !t->gas) ? HR2D_OK : HR2D_ENOMEM);
   if (!status) {
+    exchanged coarse = {.power = field + size}, fine = {.power = field + 2 * size};
+    if (unit) coarse.absorbed = unit + patches;
+    if (unit) fine.absorbed = unit + 2 * patches;
     set_fields(e, field);
-    status = hr2di_clusters_gather(coarser, &how, field, field + size);
+    for (size_t k = 0; k < patches && unit; k++) unit[k] = 1;
+    status = exchange(t, coarser, field, unit, &coarse);
+    if (!status) status = exchange(t, t->roots->clusters, field, unit, &fine);
+    if (!status) *part = worst(e, &coarse, &fine);
   }
-  if (!status)
-    status = hr2di_clusters_gather(t->roots->clusters, &how, field, field + 2 * size);
-  if (!status) *part = worst(e, field + size, field + 2 * size);
+  hr2di_alloc_free(&t->alloc, unit);
   hr2di_alloc_free(&t->alloc, field);
   return status;
 }

@@ -116,8 +116,7 @@ static hr2d_status find_roots(hr2d_linkset *links, const hr2di_graded *coarse,
                               const hr2di_resolution *fineness, const hr2d_target *target) {
   const hr2d_scene *scene = links->hierarchy->scene;
   hr2di_watch watch;
-  if (scene->patches < HR2DI_CHOICE_CLUSTERS_PATCHES || hr2di_scene_has_gas(scene))
-    return HR2D_OK;
+  if (scene->patches < HR2DI_CHOICE_CLUSTERS_PATCHES) return HR2D_OK;
   hr2di_scene_watch(scene, &watch, target->progress, target->progress_ctx, "refine");
   return coarse && !coarse->links->roots.clusters
              ? hr2di_roots_copy(&links->roots, &coarse->links->roots, scene->patches,

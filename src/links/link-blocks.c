@@ -109,9 +109,21 @@ static void part_block(const double *block, double weight, hr2di_link_blocks *b,
   if (b->single) *(float *)value = 1;
 }
 
-static void put_lost(const hr2di_integrator *work, double weight, double *lost) {
-  for (size_t side = 0; side < 2; side++)
+/* The same of what gas takes: coefficients are those of light that is not negative. */
+static void check_lost(const hr2di_basis *basis, double area, double *lost) {
+  double end[HR2D_MAX_ORDER];
+  int holds = 1;
+  hr2di_basis_at(basis, 1, end);
+  if (!(lost[0] >= 0 && lost[0] <= 2 * area)) lost[0] = 0;
+  for (size_t l = 1; l < basis->order; l++) holds &= fabs(lost[l]) <= 1.5 * lost[0] * end[l];
+  for (size_t l = 1; l < basis->order && !holds; l++) lost[l] = 0;
+}
+
+static void put_lost(hr2di_integrator *work, double area, double weight, double *lost) {
+  for (size_t side = 0; side < 2; side++) {
+    check_lost(&work->basis, area, work->lost[side]);
     put_doubles(lost + side * work->order, work->lost[side], work->order, weight);
+  }
 }
 
 static hr2d_status make_one(const maker *m, hr2di_integrator *work, uint64_t k) {
@@ -127,7 +139,7 @@ static hr2d_status make_one(const maker *m, hr2di_integrator *work, uint64_t k) 
   check_bound(&work->basis, area, has_gas, block);
   part_block(block, weight, m->blocks, k);
   m->blocks->distant[k] = (unsigned char)distant;
-  if (has_gas) put_lost(work, weight, m->blocks->lost + k * 2 * m->blocks->lost_order);
+  if (has_gas) put_lost(work, area, weight, m->blocks->lost + k * 2 * m->blocks->lost_order);
   return HR2D_OK;
 }
 

@@ -18,11 +18,30 @@
 #include "solve/row-sums.h"
 #include "visibility/back-visibility.h"
 
+/* Adds what is absorbed on the way between clusters, whose patches are the first elements. */
+static hr2d_status add_clusters(hr2di_transport *t) {
+  const hr2d_scene *scene = t->hierarchy->scene;
+  const hr2di_cluster_gather how = {.order = t->order,
+                                    .bands = 1,
+                                    .gas = hr2di_cluster_gas_of(scene, 1),
+                                    .threads = t->threads,
+                                    .watch = t->watch};
+  if (!t->roots->clusters) return HR2D_OK;
+  double *unit = hr2di_alloc_zero(&t->alloc, scene->patches * t->order, sizeof *unit);
+  if (!unit) return HR2D_ENOMEM;
+  for (size_t k = 0; k < scene->patches; k++) unit[k * t->order] = 1;
+  const hr2d_status status = hr2di_clusters_gather(t->roots->clusters, &how, unit, t->down);
+  hr2di_alloc_free(&t->alloc, unit);
+  return status;
+}
+
 /* Sums over links into t->down, one after the other. */
 static hr2d_status sum_links(hr2di_transport *t) {
   const hr2d_linkset *links = t->links;
   const size_t order = t->order, stride = t->blocks.lost_order;
   memset(t->down, 0, t->elements * order * sizeof *t->down);
+  const hr2d_status status = add_clusters(t);
+  if (status) return status;
   for (uint64_t k = 0; k < links->store.count; k++) {
     if (k % 64 == 0 && hr2di_watch_work(t->watch, 1 + 8 * order)) break;
     const hr2d_pair pair = hr2di_store_link(&links->store, k).pair;

@@ -245,6 +245,7 @@ static void gather_slice(const hr2di_transport *t, hr2di_transport_part part, si
 static void gather_clusters(hr2di_transport *t) {
   const hr2di_cluster_gather how = {.order = t->order,
                                     .bands = t->bands,
+                                    .gas = hr2di_cluster_gas_of(t->hierarchy->scene, 0),
                                     .share = t->links->share,
                                     .threads = t->threads,
                                     .room = &t->room,

@@ -59,6 +59,23 @@ static void heated(adv_scene *scene, adv_random *r) {
   if (adv_chance(r, 0.6)) scene->hot[0] = 0;
 }
 
+/* A round room of so many patches that clusters exchange for them. */
+static void many(adv_scene *scene, adv_random *r) {
+  enum { MOST = 290 };
+  double corner[MOST][2];
+  const int corners = adv_int(r, 258, MOST);
+  const double squeeze = adv_real(r, 0.3, 1);
+  for (int k = 0; k < corners; k++) {
+    const double angle = 2 * 3.14159265358979323846 * (k + adv_real(r, 0, 0.5)) / corners;
+    corner[k][0] = 2 * cos(angle);
+    corner[k][1] = 2 * squeeze * sin(angle);
+  }
+  adv_ring(scene, (const double(*)[2])corner, (size_t)corners);
+  scene->closed = 1;
+  adv_paint(scene, r, 0.8);
+  adv_fill_gas(scene, r, 0.01, 10, 0);
+}
+
 /* Two-sided screens in the open. */
 static void open_gas(adv_scene *scene, adv_random *r) {
   scene->bands = (size_t)adv_int(r, 1, 2);
@@ -74,5 +91,6 @@ const adv_kind adv_gases[] = {
     {"gas-slit", slit, "slits in gas"},
     {"gas-obstacles", obstacles, "screens and panes in a room with gas"},
     {"gas-heated", heated, "gas of given heat, which finds its temperature"},
+    {"gas-many", many, "round rooms of more than 256 patches, with clusters in gas"},
     {"gas-open", open_gas, "screens in gas without walls around it"},
     {NULL, NULL, NULL}};
