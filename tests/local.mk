@@ -192,6 +192,7 @@ OUTSIDE = \
 	tests/package/check-examples.sh \
 	tests/package/check-python.sh tests/package/check-wheel.sh \
 	tests/package/check-release.sh \
+	tests/package/check-vectors.sh \
 	tests/adversary/check-adversary-controls.sh
 
 TEST_EXTENSIONS = .sh .c
@@ -389,7 +390,8 @@ check-valgrind:
 PAPERWORK = tests/docs/check-docs.sh tests/program/check-completion.sh tests/program/check-help.sh tests/program/check-digits.sh \
 	tests/package/check-constants.sh tests/package/check-exports.sh \
 	tests/package/check-headers.sh tests/package/check-layers.sh \
-	tests/package/check-python.sh tests/package/check-wheel.sh tests/adversary/check-adversary-controls.sh
+	tests/package/check-python.sh tests/package/check-wheel.sh tests/package/check-vectors.sh \
+	tests/adversary/check-adversary-controls.sh
 # Each suite is one process: forks of a process with sanitizers took most of the time.
 check-sanitized:
 	CK_FORK=no $(MAKE) check TESTS='$(filter-out $(PAPERWORK),$(TESTS))'
