@@ -133,11 +133,29 @@ static hr2d_status fail_at(hr2di_message *message, const char *text, const char 
 static hr2d_status fail_error(hr2di_message *message, const source *s,
                               const json_error_t *error) {
   const int before = error->line == 1 ? (int)s->pad + AROUND : 0;
-  /* jansson's own text for this error names a flag of its interface. */
-  const int nul = json_error_code(error) == json_error_null_character;
+  /* jansson's own texts for these errors name a flag of its interface, or a byte. */
+  const enum json_error_code code = json_error_code(error);
+  const int nul = code == json_error_null_character || code == json_error_null_byte_in_key;
   return hr2di_message_fail(message, HR2D_ESYNTAX, "line %d, column %d: %s", error->line,
                             error->column - before,
                             nul ? "a string must not contain \\u0000" : error->text);
+}
+
+/* jansson drops a NUL byte behind a number or a word, and reads on: a damaged file would be
+   another scene. */
+static hr2d_status refuse_nul(hr2di_message *message, const char *text, size_t size,
+                              hr2di_watch *watch) {
+  enum { AT_ONCE = 1 << 16 };
+  for (size_t k = 0, some; k < size; k += some) {
+    some = size - k < AT_ONCE ? size - k : AT_ONCE;
+    const char *nul = memchr(text + k, '\0', some);
+    if (nul)
+      return fail_at(message, text, nul,
+                     "a NUL byte: the file is damaged, or is no text in UTF-8");
+    const hr2d_status status = hr2di_watch_work(watch, some / 1024);
+    if (status) return status;
+  }
+  return HR2D_OK;
 }
 
 /* Takes the tree of the text out of the array around it; the caller owns the reference. */
@@ -149,9 +167,11 @@ static json_t *unwrap(json_t *wrapped) {
 
 hr2d_status hr2di_geojson_load(const char *text, size_t size, json_t **root,
                                hr2di_message *message, hr2di_watch *watch) {
+  *root = NULL;
+  const hr2d_status whole = refuse_nul(message, text, size, watch);
+  if (whole) return whole;
   const outline o = survey(text, size, watch);
   const char *const last = text + size;
-  *root = NULL;
   if (watch->status) return watch->status;
   if (o.start == last || (*o.start != '{' && *o.start != '['))
     return fail_at(message, text, o.start,

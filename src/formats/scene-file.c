@@ -9,8 +9,18 @@
 #include "base/read-file.h"
 #include "scene/scene-impl.h"
 
+/* By its mark, or by the zero byte of each of the first two characters, which are ASCII in both
+   formats. */
+static int is_utf_16(const char *text, size_t size) {
+  if (size >= 2 && (!memcmp(text, "\xFF\xFE", 2) || !memcmp(text, "\xFE\xFF", 2))) return 1;
+  return size >= 4 && !text[0] == !text[2] && !text[1] == !text[3] && !text[0] != !text[1];
+}
+
 static hr2d_status add_text(hr2d_scene *scene, const char *text, size_t size,
                             hr2di_watch *watch) {
+  if (is_utf_16(text, size))
+    return hr2di_message_fail(hr2di_scene_message(scene), HR2D_ESYNTAX,
+                              "line 1: the text is UTF-16 or UTF-32: save it as UTF-8");
   /* A byte order mark may be ignored (RFC 8259, section 8.1), and some editors write it. */
   if (size >= 3 && memcmp(text, "\xEF\xBB\xBF", 3) == 0) {
     text += 3;

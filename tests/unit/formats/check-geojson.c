@@ -646,6 +646,51 @@ START_TEST(messages_have_nothing_that_a_terminal_obeys) {
 }
 END_TEST
 
+/* A NUL byte in the place of any other one, and behind the end, where a caller counts the one
+   that ends a string.  The control is a space, which is no error in many of these places. */
+START_TEST(no_nul_byte_is_read_over) {
+  char text[sizeof good], wanted[80];
+  unsigned long line = 1, column = 1;
+  size_t taken = 0;
+  hr2d_scene *scene = file_occupied_scene();
+  for (size_t k = 0; k < sizeof good; k++) {
+    memcpy(text, good, sizeof good);
+    text[k] = '\0';
+    snprintf(wanted, sizeof wanted, "line %lu, column %lu: a NUL byte", line, column);
+    file_expect_refused(scene, "NUL", file_parse_bytes(scene, text, k + 1), HR2D_ESYNTAX,
+                        wanted);
+    file_expect_refused(scene, "NUL", file_parse_bytes(scene, text, sizeof good), HR2D_ESYNTAX,
+                        wanted);
+    text[k] = ' ';
+    hr2d_scene *other = test_new_scene(NULL);
+    taken += !file_parse_bytes(other, text, sizeof good - (k + 1 < sizeof good));
+    hr2d_scene_destroy(other);
+    column = good[k] == '\n' ? 1 : column + (((unsigned char)good[k] & 0xC0) != 0x80);
+    line += good[k] == '\n';
+  }
+  ck_assert_uint_gt(taken, 50);
+  file_expect_refused(scene, "key", file_parse(scene, "{\"typ\\u0000\":1}"), HR2D_ESYNTAX,
+                      "line 1, column 12: a string must not contain \\u0000");
+  hr2d_scene_destroy(scene);
+}
+END_TEST
+
+/* Its first two characters are enough, if both have a zero byte; with a mark, the mark. */
+START_TEST(utf_16_is_named) {
+  static const char *const texts[] = {"\xFF\xFE", "\xFE\xFF\0{", "{\0\"\0", "\0{\0\"", "V\0 \0",
+                                      /* controls */
+                                      "{\0\"x", "\0\0\0{", "\xFF\xFD{\0"};
+  static const size_t sizes[] = {2, 4, 4, 4, 4, 4, 4, 4};
+  for (size_t k = 0; k < sizeof texts / sizeof *texts; k++) {
+    hr2d_scene *scene = test_new_scene(NULL);
+    ck_assert_int_eq(file_parse_bytes(scene, texts[k], sizes[k]), HR2D_ESYNTAX);
+    const int named = strstr(hr2d_scene_message(scene), "UTF-16") != NULL;
+    ck_assert_msg(named == (k < 5), "%zu: %s", k, hr2d_scene_message(scene));
+    hr2d_scene_destroy(scene);
+  }
+}
+END_TEST
+
 START_TEST(every_malformed_file_is_refused_with_its_reason) {
   hr2d_scene *scene = file_occupied_scene();
   for (size_t k = 0; k < sizeof malformed / sizeof *malformed; k++) {
@@ -867,11 +912,11 @@ TEST_SUITE("geojson") {
             coordinates_keep_every_bit);
   ADD_TESTS("rings", ring_order_does_not_matter, extreme_rings_have_an_inside,
             holes_face_the_inside_of_their_polygon);
-  ADD_TESTS("refusals", every_malformed_file_is_refused_with_its_reason,
-            messages_have_nothing_that_a_terminal_obeys, every_malformed_file_is_in_the_table,
-            what_is_no_file_is_an_io_error, a_long_file_is_read_whole,
-            every_truncation_is_refused, random_damage_is_refused_or_read,
-            every_failed_allocation_is_reported,
-            a_read_that_runs_out_of_memory_keeps_the_background,
-            no_failed_allocation_of_the_parser_is_lost, no_length_of_a_token_is_fatal);
+  ADD_TESTS(
+      "refusals", every_malformed_file_is_refused_with_its_reason, no_nul_byte_is_read_over,
+      utf_16_is_named, messages_have_nothing_that_a_terminal_obeys,
+      every_malformed_file_is_in_the_table, what_is_no_file_is_an_io_error,
+      a_long_file_is_read_whole, every_truncation_is_refused, random_damage_is_refused_or_read,
+      every_failed_allocation_is_reported, a_read_that_runs_out_of_memory_keeps_the_background,
+      no_failed_allocation_of_the_parser_is_lost, no_length_of_a_token_is_fatal);
 }
