@@ -126,6 +126,7 @@ libhr2d_core_la_SOURCES = \
 	src/formats/geojson-geometry.c \
 	src/formats/geojson-impl.h \
 	src/formats/geojson-meant.c src/formats/geojson-meant.h \
+	src/formats/geojson-name.c \
 	src/formats/geojson-sun.c \
 	src/formats/geojson-medium.c \
 	src/formats/geojson-symmetry.c \

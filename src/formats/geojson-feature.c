@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A GeoJSON feature: its properties, which hold for all of its patches. */
-#include <float.h>
 #include <jansson.h>
 #include <stdio.h>
 #include <string.h>
@@ -27,25 +26,6 @@ static hr2d_status read_choice(hr2di_geojson *reader, const json_t *properties, 
                             reader->label, key, first, second);
 }
 
-/* The text of a name: a number in digits, as of a room; of an object the first text, as IMDF
-   has names in several languages.  NULL if there is none. */
-static const char *text_of_name(hr2di_geojson *reader, const json_t *name) {
-  if (json_is_object(name)) {
-    json_t *names = (json_t *)(uintptr_t)name; /* iterators change nothing */
-    void *at = json_object_iter(names);
-    while (at && !json_is_string(json_object_iter_value(at)))
-      at = json_object_iter_next(names, at);
-    name = at ? json_object_iter_value(at) : NULL;
-  }
-  if (!json_is_number(name)) return json_string_value(name);
-  /* As many digits as any decimal number keeps in a double; jansson asks no locale. */
-  size_t length = json_dumpb(name, reader->numeral, sizeof reader->numeral - 1,
-                             JSON_ENCODE_ANY | JSON_REAL_PRECISION(DBL_DIG));
-  if (length > 2 && !memcmp(reader->numeral + length - 2, ".0", 2)) length -= 2;
-  reader->numeral[length] = '\0';
-  return reader->numeral;
-}
-
 static hr2d_status check_type(hr2di_geojson *reader, const json_t *feature,
                               const json_t *properties) {
   const char *type = json_string_value(json_object_get(feature, "type"));
@@ -64,16 +44,18 @@ hr2d_status hr2di_geojson_feature(hr2di_geojson *reader, const json_t *feature, 
   const int bare = hr2di_geojson_is_geometry(feature);
   const json_t *properties = bare ? NULL : hr2di_geojson_member(feature, "properties");
   const json_t *named = hr2di_geojson_member(properties, "name");
-  const char *name = text_of_name(reader, named);
+  const char *name;
+  hr2d_status status = hr2di_geojson_name(reader, named, &name);
+  if (status) return status;
 
   reader->patch = (hr2d_patch)HR2D_PATCH_INIT;
   if (name && *name) reader->patch.name = name;
   set_label(reader, number, name);
-  hr2d_status status = bare ? HR2D_OK : check_type(reader, feature, properties);
+  if (!bare) status = check_type(reader, feature, properties);
   if (!status && !bare) status = hr2di_geojson_note_feature(reader, feature);
   if (named && !name)
     hr2di_notes_add(&reader->notes, HR2D_WARNING_IGNORED, "name", reader->label,
-                    "a name is a text or a number");
+                    "a name is a text or a number, or an object or a short array with one");
   if (!status) status = hr2di_geojson_surface(reader, properties);
   if (!status) status = hr2di_geojson_sides(reader, properties);
   if (!status) status = hr2di_geojson_back(reader, properties);

@@ -13,10 +13,6 @@
 #include "geometry/vector.h"
 #include "scene/scene-impl.h"
 
-/* Bytes of a name that several segments share.  Each segment gets a copy: without this limit a
-   file could take memory for the product of the length of a name and the number of segments. */
-enum { MOST_NAME = 255 };
-
 /* A line keeps its direction; a ring is reversed if its fronts look to the wrong side. */
 typedef enum role { LINE, OUTER, HOLE } role;
 
@@ -331,12 +327,13 @@ static hr2d_status add_shape(hr2di_geojson *reader, const json_t *coordinates, c
                              : "a geometry has no positions, and adds no patch");
     return HR2D_OK;
   }
-  if (reader->segments > 1 && reader->patch.name && strlen(reader->patch.name) > MOST_NAME)
+  if (reader->segments > 1 && reader->patch.name &&
+      strlen(reader->patch.name) > HR2DI_MOST_NAME)
     return hr2di_message_fail(
         reader->message, HR2D_ESYNTAX,
         "%s: name: must not have more than %d bytes where it is for several "
         "segments",
-        reader->label, MOST_NAME);
+        reader->label, HR2DI_MOST_NAME);
   if (s->multi) return add_parts(reader, coordinates, s);
   return (s->polygon ? add_polygon : add_line)(reader, coordinates, "");
 }

@@ -18,6 +18,10 @@
 #include "scene/spectrum.h"
 #include "scene/symmetry.h"
 
+/* Bytes of a name that several segments share.  Each segment gets a copy: without this limit a
+   file could take memory for the product of the length of a name and the number of segments. */
+enum { HR2DI_MOST_NAME = 255 };
+
 enum { HR2DI_LABEL_SIZE = 128, HR2DI_PLACE_SIZE = HR2DI_LABEL_SIZE + 64 };
 
 /* An array that grows and is used again for every feature. */
@@ -35,7 +39,6 @@ typedef struct hr2di_geojson {
 
   /* The current feature. */
   char label[HR2DI_LABEL_SIZE]; /* feature 3 ("north wall") */
-  char numeral[32];             /* its name, if that is a number */
   hr2d_patch patch;             /* the members that its segments have in common */
   hr2d_thermal thermal;         /* theirs, too, unless none is given */
   int has_back;                 /* the other side has properties of its own: */
@@ -67,11 +70,17 @@ typedef struct hr2di_geojson {
   size_t point_capacity;
   char *name;
   size_t name_capacity;
+  char *written; /* the name of the feature, if it is no string */
+  size_t written_capacity;
 } hr2di_geojson;
 
 /* Adds the patches of one member of "features", or of a feature or geometry that is a file of
    its own; `number` counts from 1. */
 hr2d_status hr2di_geojson_feature(hr2di_geojson *reader, const json_t *feature, size_t number);
+
+/* Sets *text to that of a name, which may be NULL, until the next call; NULL if it has none.
+   Returns HR2D_OK or HR2D_ENOMEM. */
+hr2d_status hr2di_geojson_name(hr2di_geojson *reader, const json_t *name, const char **text);
 
 /* Adds the patches of the current feature, whose geometry may be NULL. */
 hr2d_status hr2di_geojson_geometry(hr2di_geojson *reader, const json_t *geometry);

@@ -125,5 +125,6 @@ hr2d_status hr2di_geojson_read(hr2d_scene *scene, const char *text, size_t size,
   hr2di_alloc_free(reader.alloc, reader.back_transmittance.value);
   hr2di_alloc_free(reader.alloc, reader.point);
   hr2di_alloc_free(reader.alloc, reader.name);
+  hr2di_alloc_free(reader.alloc, reader.written);
   return status;
 }
