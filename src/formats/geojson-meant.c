@@ -306,15 +306,23 @@ static void note_medium_member(hr2di_geojson *reader, const json_t *medium, cons
   note_unknown(reader, medium, key, &known);
 }
 
+/* Systems of degrees, by the end of their names: WGS 84, ETRS89, NAD83, NAD27, GDA94, GDA2020,
+   JGD2011. */
+static int is_of_degrees(const char *name) {
+  static const char *const codes[] = {"CRS84", "CRS83", "CRS27", "4326", "4979", "4258",
+                                      "4269",  "4267",  "4283",  "7844", "6668"};
+  const char *end = name + strlen(name);
+  while (end > name && end[-1] != ':' && end[-1] != '/') end--;
+  return find(codes, COUNT(codes), end) != NULL;
+}
+
 /* RFC 7946 knows no "crs"; GeoJSON of 2008 does, and some tools write it. */
 static void note_crs(hr2di_geojson *reader, const json_t *root) {
   const json_t *crs = json_object_get(root, "crs");
-  const char *name =
-      json_string_value(json_object_get(json_object_get(crs, "properties"), "name"));
-  if (name &&
-      (strstr(name, "CRS84") || strstr(name, "EPSG::4326") || strstr(name, "EPSG:4326")))
-    hr2di_notes_add(&reader->notes, HR2D_WARNING_DEGREES, "crs", "the collection",
-                    "project them to metres, for example with ogr2ogr -t_srs");
+  const char *name = json_string_value(
+      json_is_string(crs) ? crs : json_object_get(json_object_get(crs, "properties"), "name"));
+  if (name && is_of_degrees(name))
+    hr2di_notes_add(&reader->notes, HR2D_WARNING_DEGREES, "crs", "the collection", "");
 }
 
 hr2d_status hr2di_geojson_note_root(hr2di_geojson *reader, const json_t *root) {

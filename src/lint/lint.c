@@ -50,9 +50,8 @@ static hr2d_status warn_of_note(const hr2di_lint *lint, const hr2di_note *n) {
                              at.text, n->advice);
     return hr2di_lint_warn(lint, warning, "%s: third numbers of positions are not used: %s",
                            at.text, n->advice);
-  case HR2D_WARNING_DEGREES:
-    return hr2di_lint_warn(lint, warning, "the coordinates are in degrees, as \"crs\" says: %s",
-                           n->advice);
+  case HR2D_WARNING_DEGREES: /* told with the coordinates */
+    return HR2D_OK;
   case HR2D_WARNING_SKIPPED:
     return hr2di_lint_warn(lint, warning, "%s: %s", at.text, n->advice);
   default:
@@ -90,12 +89,42 @@ static void enclose(box *b, hr2d_point p) {
   }
 }
 
+static int is_on_globe(const box *b) {
+  return fmax(fabs(b->low[0]), fabs(b->high[0])) <= 180 &&
+         fmax(fabs(b->low[1]), fabs(b->high[1])) <= 90;
+}
+
 /* A town is less than a degree across, and far from longitude 0 or from the equator. */
 static int looks_like_degrees(const box *b, double across) {
   const double x = (b->low[0] + b->high[0]) / 2, y = (b->low[1] + b->high[1]) / 2;
-  return fmax(fabs(b->low[0]), fabs(b->high[0])) <= 180 &&
-         fmax(fabs(b->low[1]), fabs(b->high[1])) <= 90 && across < 1 &&
-         fmax(fabs(x), fabs(y)) > 20 * across && !b->whole;
+  return across < 1 && fmax(fabs(x), fabs(y)) > 20 * across && !b->whole;
+}
+
+static int says_degrees(const hr2di_notes *notes) {
+  size_t k = 0;
+  while (k < notes->count && notes->note[k].code != HR2D_WARNING_DEGREES) k++;
+  return k < notes->count;
+}
+
+/* The EPSG code of the zone of UTM, 6 degrees wide, around the middle of a box. */
+static int utm_of(const box *b) {
+  const int zone = (int)floor((b->low[0] + b->high[0]) / 12 + 30) % 60 + 1;
+  return (b->low[1] + b->high[1] < 0 ? 32700 : 32600) + zone;
+}
+
+/* Some tools name a system of degrees beside any coordinates: what is beyond the globe has
+   other lengths, whatever the file says. */
+static hr2d_status warn_of_degrees(const hr2di_lint *lint, const box *b, double across) {
+  const int said = says_degrees(&lint->scene->notes);
+  if (!is_on_globe(b) || !(said || looks_like_degrees(b, across))) return HR2D_OK;
+  return hr2di_lint_warn(lint, (hr2d_warning){.code = HR2D_WARNING_DEGREES},
+                         "coordinates from (%.9g, %.9g) to (%.9g, %.9g) %s: lengths are then "
+                         "in degrees, and the scene is distorted; project them to metres, for "
+                         "example with ogr2ogr -t_srs EPSG:%d",
+                         b->low[0], b->low[1], b->high[0], b->high[1],
+                         said ? "are longitude and latitude, as \"crs\" says"
+                              : "look like longitude and latitude",
+                         utm_of(b));
 }
 
 /* Rooms of a hundred metres whose walls all have whole metres are rarer than drawings in
@@ -113,12 +142,7 @@ static hr2d_status warn_of_coordinates(const hr2di_lint *lint) {
     enclose(&b, lint->scene->patch[k].given.b);
   }
   const double across = fmax(b.high[0] - b.low[0], b.high[1] - b.low[1]);
-  if (!status && looks_like_degrees(&b, across))
-    status = hr2di_lint_warn(lint, (hr2d_warning){.code = HR2D_WARNING_DEGREES},
-                             "coordinates from (%.9g, %.9g) to (%.9g, %.9g) look like "
-                             "longitude and latitude: project "
-                             "them to metres; in degrees the scene is distorted",
-                             b.low[0], b.low[1], b.high[0], b.high[1]);
+  if (!status) status = warn_of_degrees(lint, &b, across);
   if (!status && looks_like_centimetres(&b, across))
     status = hr2di_lint_warn(
         lint, (hr2d_warning){.code = HR2D_WARNING_UNITS},

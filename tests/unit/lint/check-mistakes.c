@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What people write when they draw their first scenes, and what they are told. */
+#include <stdio.h>
 #include <string.h>
 
 #include "support/support.h"
@@ -400,6 +401,58 @@ START_TEST(options_are_checked) {
 }
 END_TEST
 
+/* Degrees are told once, by "crs" or by the coordinates, and with the zone of UTM there. */
+static hr2d_status take_degrees(void *ctx, const hr2d_warning *w) {
+  char *text = ctx;
+  if (w->code != HR2D_WARNING_DEGREES) return HR2D_OK;
+  ck_assert_str_eq(text, "");
+  snprintf(text, 512, "%s", w->text);
+  return HR2D_OK;
+}
+
+#define NAMED(crs) "\"crs\":{\"type\":\"name\",\"properties\":{\"name\":\"" crs "\"}}"
+#define MUNICH     LINE("", "[[11.5001,48.1001],[11.5003,48.1003]]")
+#define RIO        LINE("", "[[-43.2001,-22.9001],[-43.2003,-22.9001]]")
+#define LOCAL      LINE("", "[[0.5,0],[4,0]]")
+#define PROJECTED  LINE("", "[[691981.5,5331123.25],[691983.5,5331123.25]]")
+#define BY_CRS     "are longitude and latitude, as \"crs\" says"
+#define BY_LOOK    "look like longitude and latitude"
+
+START_TEST(degrees_are_told_once) {
+  static const struct {
+    const char *file, *says, *zone;
+  } cases[] = {
+      {WITH(NAMED("urn:ogc:def:crs:OGC:1.3:CRS84"), MUNICH), BY_CRS, "EPSG:32632"},
+      {WITH(NAMED("EPSG:4326"), RIO), BY_CRS, "EPSG:32723"},
+      {WITH(NAMED("http://www.opengis.net/def/crs/EPSG/0/4258"), LOCAL), BY_CRS, "EPSG:32631"},
+      {WITH("\"crs\":\"EPSG:4326\"", LOCAL), BY_CRS, "EPSG:32631"},
+      {COLLECTION(MUNICH), BY_LOOK, "EPSG:32632"},
+      {COLLECTION(RIO), BY_LOOK, "EPSG:32723"},
+      {WITH(NAMED("EPSG:4326"), LINE("", "[[180,1.5],[180,1.25]]")), BY_CRS, "EPSG:32601"},
+      {WITH(NAMED("EPSG:4326"), LINE("", "[[-180,-1.5],[-180,-1.25]]")), BY_CRS, "EPSG:32701"},
+      /* controls: metres, whatever the file says, and other systems */
+      {WITH(NAMED("urn:ogc:def:crs:OGC:1.3:CRS84"), PROJECTED), NULL, NULL},
+      {WITH(NAMED("urn:ogc:def:crs:EPSG::25832"), PROJECTED), NULL, NULL},
+      {WITH(NAMED("EPSG:43260"), LOCAL), NULL, NULL},
+      {WITH("\"crs\":null", LOCAL), NULL, NULL},
+      {WITH("\"crs\":{\"properties\":{\"name\":4326}}", LOCAL), NULL, NULL},
+      {COLLECTION(LOCAL), NULL, NULL},
+  };
+  for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+    char text[512] = "";
+    hr2d_scene *scene = test_new_scene(NULL);
+    ck_assert_int_eq(hr2d_scene_parse(scene, cases[k].file, strlen(cases[k].file)), HR2D_OK);
+    ck_assert_int_eq(hr2d_scene_lint(scene, take_degrees, text, NULL), HR2D_OK);
+    if (cases[k].says)
+      ck_assert_msg(strstr(text, cases[k].says) && strstr(text, cases[k].zone), "%zu: %s", k,
+                    text);
+    else
+      ck_assert_msg(!*text, "%zu: %s", k, text);
+    hr2d_scene_destroy(scene);
+  }
+}
+END_TEST
+
 /* A file that is refused leaves no notes, and one that is read leaves a bounded number. */
 START_TEST(notes_are_of_what_was_read) {
   const char *bad = COLLECTION(LINE("\"rho\":1", "[[0,0],[1,0]]") "," LINE("", "[[0,0]]"));
@@ -422,5 +475,6 @@ END_TEST
 TEST_SUITE("mistakes") {
   REPEAT_TESTS(sizeof mistakes / sizeof *mistakes, "mistakes", each_mistake_has_its_message);
   REPEAT_TESTS(sizeof sound / sizeof *sound, "controls", what_is_meant_has_no_warning);
-  ADD_TESTS("calls", a_visitor_ends_the_call, options_are_checked, notes_are_of_what_was_read);
+  ADD_TESTS("calls", a_visitor_ends_the_call, options_are_checked, degrees_are_told_once,
+            notes_are_of_what_was_read);
 }
