@@ -209,6 +209,12 @@ static int is_paint(const json_t *properties, const char *key) {
   return text && *text == '#';
 }
 
+/* Maps have words where a number would be meant: "power": "tower" is of OpenStreetMap. */
+static int is_word(const json_t *properties, const char *key, const meant *m) {
+  const char *text = json_string_value(json_object_get(properties, key));
+  return text && !strcmp(m->instead, "emission") && !text[strcspn(text, "0123456789")];
+}
+
 static void note_property(hr2di_geojson *reader, const json_t *properties, const char *key) {
   const small s = in_small_letters(key);
   if (is_lonely(properties, key))
@@ -222,7 +228,8 @@ static void note_property(hr2di_geojson *reader, const json_t *properties, const
     return;
   }
   const meant *m = find_near(s.text);
-  if (m && !has(properties, m->instead) && !is_paint(properties, key))
+  if (m && !has(properties, m->instead) && !is_paint(properties, key) &&
+      !is_word(properties, key, m))
     hr2di_notes_add(&reader->notes, HR2D_WARNING_IGNORED, key, reader->label, m->advice);
 }
 

@@ -272,6 +272,8 @@ static const mistake mistakes[] = {
      COLLECTION(LAMP "," LINE("\"sides\":\"both\",\"transmittance\":0.8,\"reflectance\":0.4",
                               "[[1,1],[2,1]]")),
      REFUSED, "are together above 1"},
+    {"power in watts", COLLECTION(LAMP "," ROOM("\"power\":\"100 W\"", SQUARE)),
+     HR2D_WARNING_IGNORED, "\"power\" is not used: write \"emission\""},
 };
 
 typedef struct hits {
@@ -331,7 +333,8 @@ static const char *const sound[] = {
     /* words of maps */
     COLLECTION(LAMP "," ROOM("\"site\":1,\"tower\":1,\"exit\":1,\"edit\":1,\"mission\":1,"
                              "\"admission\":1,\"template\":1,\"building:material\":\"glass\","
-                             "\"face\":1,\"height\":3,\"level\":1,\"roof:colour\":\"red\"",
+                             "\"face\":1,\"height\":3,\"level\":1,\"roof:colour\":\"red\","
+                             "\"power\":\"tower\"",
                              SQUARE)),
     /* what a word was meant for is there */
     COLLECTION(LAMP "," ROOM("\"reflectance\":0.5,\"albedos\":0.5,\"reflectances\":1", SQUARE)),
