@@ -93,19 +93,19 @@ static hr2d_status keep_position(hr2di_geojson *reader, const path *p, size_t k,
   return HR2D_OK;
 }
 
-static hr2d_status fail_count(hr2di_geojson *reader, const path *p, size_t count) {
-  return hr2di_message_fail(reader->message, HR2D_ESYNTAX,
-                            "%s: needs %zu positions or more, has %zu", p->place,
-                            min_positions(p), count);
-}
-
-/* A line all of whose positions are one place is no more than a repeated position. */
+/* A line or a ring all of whose positions are one place is no more than a repeated position, as
+   simplification leaves of what is small. */
 static hr2d_status check_kept(hr2di_geojson *reader, const path *p, const progress *at) {
-  if (p->role != LINE && at->kept < min_positions(p)) return fail_count(reader, p, at->kept);
+  if (at->kept > 1 && at->kept < min_positions(p))
+    return hr2di_message_fail(reader->message, HR2D_ESYNTAX,
+                              "%s: needs %zu positions or more, has %zu without those that are "
+                              "null or repeat the one before",
+                              p->place, min_positions(p), at->kept);
   if (at->flat && at->deep)
     hr2di_notes_add(&reader->notes, HR2D_WARNING_ALTITUDE, "mixed", p->place,
                     "decimals have a point, not a comma");
-  if (p->role != LINE && !hr2di_point_same(reader->point[0], reader->point[at->kept - 1]))
+  if (p->role != LINE && at->kept &&
+      !hr2di_point_same(reader->point[0], reader->point[at->kept - 1]))
     return hr2di_message_fail(
         reader->message, HR2D_ESYNTAX,
         "%s: a ring must be closed: its last position must repeat the first", p->place);
@@ -120,7 +120,10 @@ static hr2d_status read_points(hr2di_geojson *reader, const path *p, size_t *cou
     return hr2di_message_fail(reader->message, HR2D_ESYNTAX,
                               "%s: coordinates: must be an array of positions, not %s",
                               p->place, hr2di_geojson_kind(p->positions));
-  if (n < min_positions(p)) return fail_count(reader, p, n);
+  if (n < min_positions(p))
+    return hr2di_message_fail(reader->message, HR2D_ESYNTAX,
+                              "%s: needs %zu positions or more, has %zu", p->place,
+                              min_positions(p), n);
   if (hr2di_alloc_reserve(reader->alloc, &reader->point, &reader->point_capacity, n,
                           sizeof *reader->point))
     return hr2di_message_fail(reader->message, HR2D_ENOMEM, "%s: out of memory", p->place);

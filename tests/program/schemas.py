@@ -241,7 +241,7 @@ check(f"scenes in pages were found, {blocks}", blocks >= 5)
 # What needs more than a look at members one by one.
 BEYOND = set("""
 bands-differ duplicate-key escaped-nul hole-open huge-integer huge-number infinity lone-surrogate
-not-a-number ring-cancels ring-figure-eight ring-flat ring-open
+not-a-number ring-cancels ring-figure-eight ring-flat ring-open ring-repeats
 """.split())
 refused, beyond = 0, []
 for path in sorted(glob.glob(os.path.join(TOP, "tests/data/malformed/*.geojson"))):

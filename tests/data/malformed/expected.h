@@ -143,6 +143,10 @@ static const struct malformed {
     {"ring-open.geojson", HR2D_ESYNTAX,
      "feature 2 (\"wall\"): ring 1: a ring must be closed: its last position must repeat the "
      "first"},
+    {"ring-repeats.geojson", HR2D_ESYNTAX,
+     "feature 2 (\"wall\"): ring 1: needs 4 positions or more, has 3 without those that are "
+     "null "
+     "or repeat the one before"},
     {"ring-three.geojson", HR2D_ESYNTAX,
      "feature 2 (\"wall\"): ring 1: needs 4 positions or more, has 3"},
     {"sides-back.geojson", HR2D_ESYNTAX,

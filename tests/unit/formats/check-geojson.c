@@ -254,10 +254,16 @@ START_TEST(what_other_programs_write_is_read) {
       {COLLECTION(
            FEATURE("\"name\":\"w\"", "Polygon", "[[[0,0],[9,0],[9,0],[9,9],[0,0],[0,0]]]")),
        "w/3", "a position repeats", 3, 1},
+      {COLLECTION(
+           FEATURE("", "Polygon", "[[[1,2],[1,2],[1,2],[1,2]]]") "," LINE_OF("[[0,0],[1,0]]")),
+       "w", "feature 1: ring 1 and 2 more: a position repeats", 1, 1},
+      {COLLECTION(
+           FEATURE("", "Polygon", "[[null,null,null,null]]") "," LINE_OF("[[0,0],[1,0]]")),
+       "w", "neighbours are joined", 1, 1},
       {COLLECTION(LINE_OF("[null,[0,0],[null,null],[1,0],[1,null]]")), "w/1",
        "neighbours are joined", 1, 1},
       {COLLECTION(LINE_OF("[[0,0,null],[1,0,0]]")), "w", "", 1, 0},
-      /* 17: collections: one wall has no number; nothing, and nothing but points */
+      /* 19: collections: one wall has no number; nothing, and nothing but points */
       {GATHERED("\"name\":\"w\"", GEOMETRIES(GEOMETRY("LineString", "[[0,0],[1,0]]"))), "w", "",
        1, 0},
       {COLLECTION(GEOMETRIES("") "," LINE_OF("[[0,0],[1,0]]")), "w",
