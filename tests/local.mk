@@ -51,6 +51,7 @@ SUITES = \
 	tests/unit/scene/check-period-weights.c \
 	tests/unit/formats/check-geojson.c \
 	tests/unit/formats/check-memory.c \
+	tests/unit/formats/check-strangers.c \
 	tests/unit/formats/check-vs2.c \
 	tests/unit/lint/check-mistakes.c \
 	tests/unit/lint/check-drawings.c \

@@ -129,10 +129,14 @@ HR2D_API hr2d_status hr2d_scene_add(hr2d_scene *scene, const hr2d_patch *patch, 
  * Adds the patches of a scene file: GeoJSON or View2D's .vs2; see doc/scene-files.md.
  *
  * The text of the file shows which format it has. GeoJSON has the structure of RFC 7946, with
- * planar coordinates in scene lengths. A background in a GeoJSON file replaces the background
- * of the scene; a file without a background does not change it. A .vs2 file has no emission.
- * Its values obs, bas and cmb must be integers and are not used. Numbers have a decimal point
- * in any locale.
+ * planar coordinates in scene lengths; it is a collection, one feature, or one geometry.
+ * Points, geometries without positions and repeated positions make no patch: hr2d_scene_lint()
+ * counts them, and warns of degrees. A name that is no string is taken as its text; that of an
+ * object is its member "en", or the first one that has a text.
+ *
+ * A background in a GeoJSON file replaces the background of the scene; a file without a
+ * background does not change it. A .vs2 file has no emission. Its values obs, bas and cmb must
+ * be integers and are not used. Numbers have a decimal point in any locale.
  *
  * @param scene  not yet committed; unchanged on failure, including its background
  * @param path   a file name
@@ -141,7 +145,8 @@ HR2D_API hr2d_status hr2d_scene_add(hr2d_scene *scene, const hr2d_patch *patch, 
  * @retval HR2D_EINVAL        `scene` or `path` is NULL
  * @retval HR2D_ESTATE        the scene is committed
  * @retval HR2D_EIO           the file cannot be opened or read
- * @retval HR2D_ESYNTAX       the text has neither of the formats
+ * @retval HR2D_ESYNTAX       the text has neither of the formats, or is UTF-16, or GeoJSON with
+ *                            a NUL byte, as an escape, too
  * @retval HR2D_ESCENE        a value or a patch is not valid
  * @retval HR2D_EUNSUPPORTED  the file asks for an effect that this version lacks
  *
@@ -154,7 +159,7 @@ HR2D_API hr2d_status hr2d_scene_read(hr2d_scene *scene, const char *path);
  * Adds the patches of a scene file that is in memory; otherwise like hr2d_scene_read().
  * @param scene  as in hr2d_scene_read()
  * @param text   the text; it need not be terminated
- * @param size   number of bytes of the text
+ * @param size   number of bytes of the text, without a NUL byte that ends it
  * @return as hr2d_scene_read(), except HR2D_EIO
  *
  * Memory besides the text: at most 32 kB and 256 bytes for each byte of the text, whatever the

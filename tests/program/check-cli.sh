@@ -832,6 +832,27 @@ for command in info solve; do
   succeeds "$command" "$HR2D_SRCDIR/examples/scenes/lit-room.geojson" --strict
   check "$command has no warning about a sound scene" [ ! -s "$work/err" ]
 done
+# Of an export of OpenStreetMap three points are one line, and so are degrees; of IMDF the English name is printed.
+strangers=$HR2D_SRCDIR/tests/data/strangers
+succeeds info "$strangers/overpass.geojson"
+check "three points are one line" \
+  [ "$(grep -c 'feature 3, feature 4 ("Markt 1") and feature 5: a point is no wall' "$work/err")" -eq 1 ]
+check "and points are in no other one" [ "$(grep -c 'a point' "$work/err")" -eq 1 ]
+check "degrees are one line" [ "$(grep -c 'ogr2ogr -t_srs EPSG:32632' "$work/err")" -eq 1 ]
+succeeds factors "$strangers/unit.geojson"
+check "a unit has its English name" grep -q ' Office/1 ' "$work/out"
+for file in polygon geometries collection drawing; do succeeds info "$strangers/$file.geojson"; done
+# A NUL byte behind a number, and behind the end, of a file and of a pipe; the control has a space there.
+for place in '8.5' '}$'; do
+  sed "s/$place/&@/" "$strangers/polygon.geojson" >"$work/at.geojson"
+  tr @ ' ' <"$work/at.geojson" >"$work/space.geojson"
+  tr @ '\0' <"$work/at.geojson" >"$work/nul.geojson"
+  succeeds info "$work/space.geojson"
+  expect 1 '^hr2d: .*nul.geojson: line 1, column [0-9]*: a NUL byte' info "$work/nul.geojson"
+  hr2d info - <"$work/nul.geojson" >"$work/out" 2>"$work/err"
+  status=$?
+  check "a NUL byte of a pipe" matches 1 'line 1, column [0-9]*: a NUL byte'
+done
 succeeds info "$work/loose.geojson" --snap 0.002
 check "--snap tells what it moved" grep -q 'snapped: 0 ends joined, 1 feet moved' "$work/err"
 check "and how far" grep -q 'farthest by 0.001, from (2, 0.001) to (2, 0)' "$work/err"
