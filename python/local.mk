@@ -6,6 +6,7 @@ EXTRA_DIST += \
 	python/hr2d/__init__.py \
 	python/hr2d/_arrays.py \
 	python/hr2d/_calls.py \
+	python/hr2d/_curves.py \
 	python/hr2d/_draw.py \
 	python/hr2d/_enclosure.py \
 	python/hr2d/_errors.py \
@@ -14,20 +15,33 @@ EXTRA_DIST += \
 	python/hr2d/_law.py \
 	python/hr2d/_links.py \
 	python/hr2d/_points.py \
+	python/hr2d/_read_dxf.py \
+	python/hr2d/_read_mesh.py \
+	python/hr2d/_read_svg.py \
 	python/hr2d/_scene.py \
+	python/hr2d/_shapes.py \
 	python/hr2d/_solution.py \
 	python/hr2d/_operator.py \
 	python/hr2d/_solve.py \
 	python/hr2d/_state.py \
 	python/hr2d/_strategy.py \
+	python/hr2d/convert.py \
 	python/hr2d/py.typed \
 	python/hr2d_backend.py \
 	python/hr2d_build.py \
 	python/pyproject.toml \
 	python/setup.py \
 	python/tests/conftest.py \
+	python/tests/data/room-4.1.msh \
+	python/tests/data/room.dxf \
+	python/tests/data/room.msh \
+	python/tests/data/room.svg \
+	python/tests/data/room.vtk \
+	python/tests/data/room.vtp \
+	python/tests/data/room.vtu \
 	python/tests/test_callbacks.py \
 	python/tests/test_complete.py \
+	python/tests/test_convert.py \
 	python/tests/test_daylight.py \
 	python/tests/test_symmetry.py \
 	python/tests/test_documentation.py \

@@ -6,6 +6,7 @@ import numpy as np
 import numpy.typing as npt
 
 import hr2d
+import hr2d.convert
 
 
 def brightest(scene: hr2d.Scene) -> tuple[str, float]:
@@ -18,6 +19,12 @@ def coarse(batch: hr2d.Batch) -> npt.NDArray[np.float64]:
     larger: npt.NDArray[np.float64] = np.maximum(batch.first["length"], batch.second["length"])
     errors: npt.NDArray[np.float64] = larger / batch.distance
     return errors
+
+
+def drawing(path: str) -> hr2d.Scene:
+    scene = hr2d.Scene()
+    scene.add(hr2d.convert.read(path, tolerance=.1, materials={"lamp": {"emission": 1}}))
+    return scene
 
 
 def main() -> None:
