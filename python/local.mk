@@ -3,6 +3,7 @@ EXTRA_DIST += \
 	python/README.md \
 	python/bundled/NOTICE \
 	python/bundled/make.sh \
+	python/hr2d-convert.1 \
 	python/hr2d/__init__.py \
 	python/hr2d/_arrays.py \
 	python/hr2d/_calls.py \

@@ -14,7 +14,7 @@ if [ ! -e .libs/libhr2d.so ]; then
 fi
 rm -rf "$out"
 mkdir -p "$out/source" "$out/pkg-config"
-(cd "$source/python" && cp -r hr2d README.md ./*.py pyproject.toml "$top/$out/source")
+(cd "$source/python" && cp -r hr2d README.md hr2d-convert.1 ./*.py pyproject.toml "$top/$out/source")
 cp "$source/COPYING" "$source/python/bundled/NOTICE" "$out/source"
 chmod -R u+w "$out/source"
 

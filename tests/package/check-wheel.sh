@@ -58,6 +58,8 @@ for library in GSL jansson; do
   grep -q "^$library" "$(find "$information" -name NOTICE)" || fail "the wheel lacks the notice of $library"
 done
 
+"$work/venv/bin/hr2d-convert" --help >/dev/null || fail "the wheel lacks its command"
+[ -e "$work/venv/share/man/man1/hr2d-convert.1" ] || fail "the wheel lacks a manual page"
 test_package "$work/tested"
 . "$HR2D_SRCDIR/tests/docs/pages.sh"
 make_reader "$work/bin"
