@@ -36,6 +36,7 @@ SOLVE_SOURCES = \
 	tools/run/all-links.c \
 	tools/run/heat.c \
 	tools/run/leaves.c tools/run/leaves.h \
+	tools/run/places.c \
 	tools/run/run.c tools/run/run.h \
 	tools/run/state.c tools/run/state.h \
 	tools/run/target.c \

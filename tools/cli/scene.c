@@ -165,8 +165,9 @@ int scene_has_gas(const hr2d_scene *scene) {
 
 int scene_complain(const options *o, const hr2d_scene *scene, hr2d_status status) {
   if (status == HR2D_EUNSUPPORTED && scene_has_gas(scene))
-    return complain(o->scene,
-                    "the scene has a gas, \"medium\", through which this version does not "
-                    "compute what is asked for");
+    return complain_call(o->scene,
+                         "the scene has a gas, \"medium\", through which this version does not "
+                         "compute what is asked for",
+                         status);
   return complain_call(o->scene, "", status);
 }

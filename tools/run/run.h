@@ -104,6 +104,11 @@ void run_enclosed_errors(const run *r, double *average, double *irradiance);
 /* The limits of refinement in the options. */
 hr2d_refine_options run_refine_options(const options *o);
 
+/* places.c: the patches that --at, --links-of, --importance and --beams-of name, in this order,
+   as a run has them; the caller frees them, also after a failure.  Returns 0 or the exit
+   status. */
+int run_find_places(const options *o, const hr2d_scene *scene, size_t **patches);
+
 /* The patches of --importance, in the order given. */
 const size_t *run_important(const run *r);
 

@@ -10,15 +10,6 @@
 /* Up to this many patches the error is measured by default. */
 enum { FEW_PATCHES = 200 };
 
-const size_t *run_important(const run *r) {
-  return r->places ? r->places + r->options->at.count + 1 : NULL;
-}
-
-const size_t *run_beamed(const run *r) {
-  const size_t *important = run_important(r);
-  return important ? important + r->options->importance.count : NULL;
-}
-
 static hr2d_target make_target(const run *r, progress *p) {
   const options *o = r->options;
   hr2d_target target = HR2D_TARGET_INIT;
@@ -73,7 +64,7 @@ int run_target(run *r, progress *p) {
   if (status == HR2D_EUNSUPPORTED) return scene_complain(r->options, r->scene, status);
   if (status && status != HR2D_EACCURACY)
     return complain_call(r->options->scene, r->account.reason, status);
-  if (!r->solution) return complain(r->options->scene, "%s", r->account.reason);
+  if (!r->solution) return complain_call(r->options->scene, r->account.reason, status);
   if (r->options->no_error) forget_errors(&r->account);
   r->links = hr2d_solution_links(r->solution);
   r->hierarchy = hr2d_linkset_hierarchy(r->links);

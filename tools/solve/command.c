@@ -13,22 +13,6 @@
 #include "run/run.h"
 #include "solve/solve.h"
 
-/* The patches that --at, --links-of, --importance and --beams-of name, in this order. */
-static int find_places(const options *o, const hr2d_scene *scene, size_t *patches) {
-  int status = 0;
-  for (size_t k = 0; !status && k < o->at.count; k++)
-    status = scene_find_place(scene, "at", &o->at.items[k], &patches[k]);
-  if (!status && o->links_of.patch)
-    status = scene_find_place(scene, "links-of", &o->links_of, &patches[o->at.count]);
-  for (size_t k = 0; !status && k < o->importance.count; k++)
-    status = scene_find_place(scene, "importance", &o->importance.items[k],
-                              &patches[o->at.count + 1 + k]);
-  for (size_t k = 0; !status && k < o->beams_of.count; k++)
-    status = scene_find_place(scene, "beams-of", &o->beams_of.items[k],
-                              &patches[o->at.count + 1 + o->importance.count + k]);
-  return status;
-}
-
 /* A flux that no temperature allows is an error, after the report. */
 static int check_heat(const run *r) {
   run_heat heat;
@@ -92,14 +76,13 @@ static double warnings_deadline(const options *o, double start) {
   return o->time_budget > 0 ? now + fmax(left, 0) / 2 : 0;
 }
 
-static int solve_places(const options *o, const hr2d_scene *scene, size_t cuts, double start,
-                        const run_shares *shares, size_t *patches) {
-  warnings w;
-  int status = find_places(o, scene, patches);
-  if (status) return status;
-  status = draw_check_scene(o, scene);
-  if (status) return status;
-  status = warnings_find(o, scene, warnings_deadline(o, start), &w);
+int solve_scene(const options *o, const hr2d_scene *scene, size_t cuts, double start,
+                const run_shares *shares) {
+  warnings w = {0};
+  size_t *patches = NULL;
+  int status = run_find_places(o, scene, &patches);
+  if (!status) status = draw_check_scene(o, scene);
+  if (!status) status = warnings_find(o, scene, warnings_deadline(o, start), &w);
   run r = {.options = o,
            .scene = scene,
            .cuts = cuts,
@@ -110,15 +93,6 @@ static int solve_places(const options *o, const hr2d_scene *scene, size_t cuts, 
            .share = shares ? shares->share : NULL};
   if (!status) status = run_and_report(&r);
   warnings_release(&w);
-  return status;
-}
-
-int solve_scene(const options *o, const hr2d_scene *scene, size_t cuts, double start,
-                const run_shares *shares) {
-  size_t *patches =
-      calloc(o->at.count + 1 + o->importance.count + o->beams_of.count, sizeof *patches);
-  const int status =
-      patches ? solve_places(o, scene, cuts, start, shares, patches) : complain_memory();
   free(patches);
   return status;
 }

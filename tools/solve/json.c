@@ -264,7 +264,7 @@ static json_t *enclosed(const run *r) {
   return object;
 }
 
-int solve_write_json(const run *r, double total_seconds, const char *path) {
+json_t *solve_json(const run *r, double total_seconds) {
   const options *o = r->options;
   const hr2d_refine_counts counts = hr2d_linkset_counts(r->links);
   json_t *root = json_object();
@@ -287,5 +287,9 @@ int solve_write_json(const run *r, double total_seconds, const char *path) {
   if (r->options->enclose > 0) json_put(&root, "enclosed", enclosed(r));
   json_put(&root, "warnings", json_incref(r->warnings->list));
   json_put(&root, "status", json_text(r->inaccurate ? "inaccurate" : "ok"));
-  return json_write(root, path);
+  return root;
+}
+
+int solve_write_json(const run *r, double total_seconds, const char *path) {
+  return json_write(solve_json(r, total_seconds), path);
 }

@@ -3,6 +3,8 @@
 #ifndef HR2D_TOOLS_SOLVE_SOLVE_H
 #define HR2D_TOOLS_SOLVE_SOLVE_H
 
+#include <jansson.h>
+
 #include "run/run.h"
 
 /* command.c: solves a committed scene, and reports.  With shares all of them call it, and the
@@ -22,7 +24,8 @@ int solve_write_csv(const run *r, const char *path);
 /* vtk.c: a line for each leaf, with B, H and T of it and of its patch. */
 int solve_write_vtk(const run *r, const char *path);
 
-/* json.c */
+/* json.c: the result, or NULL if an allocation failed; and a file of it. */
+json_t *solve_json(const run *r, double total_seconds);
 int solve_write_json(const run *r, double total_seconds, const char *path);
 
 #endif
