@@ -1,20 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What the page asks of the library, as calls that take and give numbers and arrays alone.  The
    JavaScript side is page/library.js.  Every call that can fail returns an hr2d_status. */
-#include <hr2d/hr2d.h>
+#include "glue.h"
+
 #include <stdlib.h>
 
 enum {
   FITTED = 6,      /* rows of a study that show how L grows */
   MOST_ROUNDS = 20 /* of links by the light of the last round */
 };
-
-/* Visible to the page; the linker begins with these. */
-#define PAGE(name) __attribute__((export_name(#name))) name
-
-/* The page: whether to go on.  Receives the phase and the part of it that is done. */
-__attribute__((import_module("env"), import_name("go_on"))) extern int go_on(const char *phase,
-                                                                             double fraction);
 
 /* A scene with what was made from it last. */
 typedef struct play {
@@ -291,22 +285,26 @@ void PAGE(play_exchange_areas)(const play *p, double *out, size_t count) {
   for (size_t k = 0; k < count; k++) *out++ = hr2d_linkset_get(links_of(p), k).exchange_area;
 }
 
-/* The mean radiosity at the nodes of a grid, nodes × bands, and the place of each node. */
+hr2d_status glue_field(const hr2d_solution *solution, const hr2d_field_grid *grid, double *mean,
+                       unsigned char *place) {
+  hr2d_field_options how = HR2D_FIELD_OPTIONS_INIT;
+  hr2d_field_values values = HR2D_FIELD_VALUES_INIT;
+  how.progress = ask_page;
+  values.mean = mean;
+  values.place = place;
+  return hr2d_field_on_grid(solution, grid, &how, &values, NULL);
+}
+
 hr2d_status PAGE(play_field)(play *p, double x0, double y0, double x1, double y1,
                              size_t columns, size_t rows, double tolerance, double *mean,
                              unsigned char *place) {
   hr2d_field_grid grid = HR2D_FIELD_GRID_INIT;
-  hr2d_field_options how = HR2D_FIELD_OPTIONS_INIT;
-  hr2d_field_values values = HR2D_FIELD_VALUES_INIT;
   grid.low = (hr2d_point){x0, y0};
   grid.high = (hr2d_point){x1, y1};
   grid.columns = columns;
   grid.rows = rows;
   grid.tolerance = tolerance;
-  how.progress = ask_page;
-  values.mean = mean;
-  values.place = place;
-  return fail(p, hr2d_field_on_grid(p->solution, &grid, &how, &values, NULL), NULL);
+  return fail(p, glue_field(p->solution, &grid, mean, place), NULL);
 }
 
 /* The study of L against N. */

@@ -20,8 +20,10 @@ SOURCES = playground/wasm/sources
 FLAGS = -std=c11 -Os -ffp-contract=off -fno-math-errno -fno-trapping-math -MMD
 LIBRARY = $(FLAGS) -Wall -Wextra -DHR2D_BUILDING -D_POSIX_C_SOURCE=200809L -Iinclude \
 	-I$(SRCDIR)/include -I$(SRCDIR)/src -Iplayground/wasm/include
-GLUE = $(FLAGS) -Wall -Wextra -Wshadow -Wconversion -Wno-sign-conversion -Iinclude \
-	-I$(SRCDIR)/include
+GLUE = $(FLAGS) -Wall -Wextra -Wshadow -Wconversion -Wno-sign-conversion \
+	-D_DEFAULT_SOURCE -Iinclude -I$(SRCDIR)/include -I$(SRCDIR)/tools -Iplayground/wasm/include
+PROGRAM = $(FLAGS) -Wall -Wextra -D_DEFAULT_SOURCE -Iinclude -I$(SRCDIR)/include \
+	-I$(SRCDIR)/tools -Iplayground/wasm/include
 FOREIGN = $(FLAGS) -w -DHAVE_STDINT_H -Iplayground/wasm/include
 
 # What the library calls of GSL, and what that calls; the linker drops the rest.
@@ -30,11 +32,17 @@ GSL = blas/blas cblas/dasum cblas/daxpy cblas/dcopy cblas/ddot cblas/dgemm cblas
 	cblas/xerbla err/error err/stream fit/linear integration/qk integration/qk15 \
 	linalg/householder linalg/qr matrix/matrix matrix/rowcol matrix/submatrix matrix/view \
 	specfunc/debye specfunc/psi vector/copy vector/init vector/subvector vector/vector vector/view
+# What `hr2d solve --json` is made of.  host.c takes the place of files that need a machine.
+SOLVE = cli/commands cli/names cli/numbers cli/option-table cli/options cli/options-check \
+	cli/scene cli/suggest cli/values cli/warnings output/clock output/json output/printable \
+	output/provenance output/sha256 output/suffix run/heat run/places run/run run/target \
+	solve/json
+CALLS = glue host package
 JANSSON = dump error hashtable hashtable_seed load memory strbuffer strconv utf value
 
 OBJECTS = $(patsubst %.c,playground/wasm/object/%.o,$(filter %.c,$(CORE))) \
 	$(GSL:%=playground/wasm/object/gsl/%.o) $(JANSSON:%=playground/wasm/object/jansson/%.o) \
-	playground/wasm/object/glue.o
+	$(SOLVE:%=playground/wasm/object/tools/%.o) $(CALLS:%=playground/wasm/object/calls/%.o)
 STATIC = $(patsubst $(PAGE)/%,$(OUT)/%,$(wildcard $(PAGE)/*)) $(OUT)/scenes/list.json
 
 all: $(OUT)/hr2d.wasm $(STATIC)
@@ -55,7 +63,7 @@ $(OUT)/scenes/list.json: $(SCENES) $(SRCDIR)/playground/wasm.mk
 	cp $(SCENES) $(@D)
 	(printf '['; printf '"%s"\n' $(notdir $(SCENES)) | paste -sd , -; printf ']\n') >$@
 
-playground/wasm/object/glue.o: $(SRCDIR)/playground/glue.c
+playground/wasm/object/calls/%.o: $(SRCDIR)/playground/%.c $(SOURCES)/ready
 	@mkdir -p $(@D)
 	$(CC) $(GLUE) -c $< -o $@
 
@@ -66,6 +74,10 @@ playground/wasm/object/gsl/%.o: $(SOURCES)/ready
 playground/wasm/object/jansson/%.o: $(SOURCES)/ready
 	@mkdir -p $(@D)
 	$(CC) $(FOREIGN) -c $(SOURCES)/jansson/src/$*.c -o $@
+
+playground/wasm/object/tools/%.o: $(SRCDIR)/tools/%.c $(SOURCES)/ready
+	@mkdir -p $(@D)
+	$(CC) $(PROGRAM) -c $< -o $@
 
 playground/wasm/object/%.o: $(SRCDIR)/%.c $(SOURCES)/ready
 	@mkdir -p $(@D)

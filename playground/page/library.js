@@ -1,97 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The library as an object with methods: glue.c, called through WebAssembly.
 
-const decoder = new TextDecoder();
-const encoder = new TextEncoder();
-const STOPPED = 1; // hr2d_status
+import { LibraryError, Module } from "./module.js";
+
+export { LibraryError };
+
 const MOST_STUDY_LINKS = 4e6;
 
-/** A call that failed, with the sentence of the library. */
-export class LibraryError extends Error {
-  constructor(status, message) {
-    super(message);
-    this.status = status;
-    this.stopped = status === STOPPED;
-  }
-}
-
-/** What the module imports.  There are no files, so that nothing is written anywhere. */
-function imports(library) {
-  const clock = (id, precision, out) => {
-    library.view().setBigUint64(out, BigInt(Math.round(performance.now() * 1e6)), true);
-    return 0;
-  };
-  const no_file = () => 8; // EBADF of WASI
-  const empty_environment = (count, size) => {
-    library.view().setUint32(count, 0, true);
-    library.view().setUint32(size, 0, true);
-    return 0;
-  };
-  return {
-    env: {
-      go_on: (phase, fraction) => (library.goOn(library.text(phase), fraction) ? 1 : 0),
-      emscripten_notify_memory_growth: () => {},
-    },
-    wasi_snapshot_preview1: {
-      clock_time_get: clock,
-      environ_get: () => 0,
-      environ_sizes_get: empty_environment,
-      fd_close: no_file,
-      fd_seek: no_file,
-      fd_write: no_file,
-      proc_exit: (code) => {
-        throw new Error(`the library ended with ${code}`);
-      },
-    },
-  };
-}
-
-export class Library {
+export class Library extends Module {
   /** @param module  a compiled WebAssembly.Module */
   static async create(module) {
     const library = new Library();
-    const instance = await WebAssembly.instantiate(module, imports(library));
-    library.calls = instance.exports;
-    library.calls._initialize();
+    library.begin(await WebAssembly.instantiate(module, library.imports()));
     library.play = library.calls.play_create();
-    library.goOn = () => true;
     return library;
-  }
-
-  view() {
-    return new DataView(this.calls.memory.buffer);
-  }
-
-  text(at) {
-    const bytes = new Uint8Array(this.calls.memory.buffer);
-    return decoder.decode(bytes.slice(at, bytes.indexOf(0, at)));
-  }
-
-  /** Calls use(address) with memory of so many bytes, and frees it. */
-  lend(bytes, use) {
-    const at = this.calls.play_allocate(bytes);
-    if (!at) throw new LibraryError(2, "out of memory");
-    try {
-      return use(at);
-    } finally {
-      this.calls.play_release(at);
-    }
-  }
-
-  /** The `count` numbers that write(address) writes, copied. */
-  numbers(count, write) {
-    return this.lend(8 * count, (at) => {
-      write(at);
-      return new Float64Array(this.calls.memory.buffer, at, count).slice();
-    });
-  }
-
-  lendText(text, use) {
-    const bytes = encoder.encode(text + "\0");
-    return this.lend(bytes.length, (at) => {
-      new Uint8Array(this.calls.memory.buffer).set(bytes, at);
-      return use(at, bytes.length - 1);
-    });
   }
 
   check(status) {

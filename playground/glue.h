@@ -1,0 +1,19 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What the calls of the page and those of the package have in common. */
+#ifndef HR2D_PLAYGROUND_GLUE_H
+#define HR2D_PLAYGROUND_GLUE_H
+
+#include <hr2d/hr2d.h>
+
+/* Visible to JavaScript; the linker begins with these. */
+#define PAGE(name) __attribute__((export_name(#name))) name
+
+/* JavaScript: whether to go on.  Receives the phase and the part of it that is done. */
+__attribute__((import_module("env"), import_name("go_on"))) extern int go_on(const char *phase,
+                                                                             double fraction);
+
+/* The mean radiosity at the nodes of a grid, nodes × bands, and the place of each node. */
+hr2d_status glue_field(const hr2d_solution *solution, const hr2d_field_grid *grid, double *mean,
+                       unsigned char *place);
+
+#endif
