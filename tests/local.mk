@@ -397,11 +397,12 @@ PAPERWORK = tests/docs/check-docs.sh tests/program/check-completion.sh tests/pro
 check-sanitized:
 	CK_FORK=no $(MAKE) check TESTS='$(filter-out $(PAPERWORK),$(TESTS))'
 
-# What callers, files and failing memory may do to the library and the program.
+# What callers, files and failing memory may do to the library and the program; and the headers, whose
+# comments clang compares with what they declare.
 HOSTILE = $(filter tests/arguments/% tests/faults/% tests/unit/formats/% tests/unit/state/% \
 	tests/unit/repair/% tests/unit/triangulation/%,$(SUITES)) \
 	tests/unit/operator/check-operator-calls.c tests/unit/accuracy/check-target-calls.c \
-	tests/program/check-program-faults.sh tests/program/check-cli.sh
+	tests/program/check-program-faults.sh tests/program/check-cli.sh tests/package/check-headers.sh
 check-hostile:
 	CK_FORK=no $(MAKE) check TESTS='$(HOSTILE)'
 

@@ -117,8 +117,9 @@ HR2D_API size_t hr2d_scene_sky_pieces(const hr2d_scene *scene);
 /**
  * The average of H_sun over a patch. H without the light that comes straight from the sun is
  * hr2d_solution_irradiance() less this.
- * @param scene,patch  a committed scene and the index of a patch
- * @param band         below hr2d_scene_bands()
+ * @param scene  a committed scene
+ * @param patch  the index of a patch
+ * @param band   below hr2d_scene_bands()
  * @return power per length, in the unit of E. An end of the light is off by roundings of
  *         coordinates, a few units of 2^-52·hr2d_scene_unit() across the light
  *
@@ -142,9 +143,11 @@ HR2D_API double hr2d_scene_sunlight_cut_off(const hr2d_scene *scene, size_t band
 
 /**
  * The average of H_sun over a part of a patch.
- * @param scene,patch  a committed scene and the index of a patch
- * @param from,to      the part, fractions of the patch in [0,1], from < to
- * @param band         below hr2d_scene_bands()
+ * @param scene  a committed scene
+ * @param patch  the index of a patch
+ * @param from   where the part begins, a fraction of the patch in [0,1]
+ * @param to     where it ends; from < to
+ * @param band   below hr2d_scene_bands()
  * @return as hr2d_scene_sunlight(), at its cost
  */
 HR2D_API double hr2d_scene_sunlight_over(const hr2d_scene *scene, size_t patch, double from,
@@ -152,10 +155,11 @@ HR2D_API double hr2d_scene_sunlight_over(const hr2d_scene *scene, size_t patch, 
 
 /**
  * H_sun at a point of a patch.
- * @param scene,patch  a committed scene and the index of a patch
- * @param t            fraction of the patch in [0,1], counted from its start; a border of the
- *                     light counts as lit
- * @param band         below hr2d_scene_bands()
+ * @param scene  a committed scene
+ * @param patch  the index of a patch
+ * @param t      fraction of the patch in [0,1], counted from its start; a border of the
+ *               light counts as lit
+ * @param band   below hr2d_scene_bands()
  * @return power per length, in the unit of E
  */
 HR2D_API double hr2d_scene_sunlight_at(const hr2d_scene *scene, size_t patch, double t,
@@ -163,11 +167,12 @@ HR2D_API double hr2d_scene_sunlight_at(const hr2d_scene *scene, size_t patch, do
 
 /**
  * The parts of a patch that the sun of a band lights.
- * @param scene,patch  a committed scene and the index of a patch
- * @param band         below hr2d_scene_bands()
- * @param part         receives the first `room` parts, from their start to their end: fractions
- *                     of the patch, in its direction; may be NULL if `room` is 0
- * @param room         number of parts that there is room for
+ * @param scene  a committed scene
+ * @param patch  the index of a patch
+ * @param band   below hr2d_scene_bands()
+ * @param part   receives the first `room` parts, from their start to their end: fractions
+ *               of the patch, in its direction; may be NULL if `room` is 0
+ * @param room   number of parts that there is room for
  * @return the number of parts; 0 if the patch is in the shade
  */
 HR2D_API size_t hr2d_scene_sunlit_parts(const hr2d_scene *scene, size_t patch, size_t band,

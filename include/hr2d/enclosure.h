@@ -146,7 +146,9 @@ HR2D_API void hr2d_enclosure_destroy(hr2d_enclosure *enclosure);
 
 /**
  * The lower end of the average of B over a patch.
- * @param enclosure,patch,band  an enclosure, the index of a patch and a band
+ * @param enclosure  an enclosure
+ * @param patch      the index of a patch
+ * @param band       a band
  * @return in the unit of E; hr2d_solution_average() of the exact solution is not below
  */
 HR2D_API double hr2d_enclosure_lower(const hr2d_enclosure *enclosure, size_t patch,
@@ -154,7 +156,9 @@ HR2D_API double hr2d_enclosure_lower(const hr2d_enclosure *enclosure, size_t pat
 
 /**
  * The upper end of the average of B over a patch.
- * @param enclosure,patch,band  as for hr2d_enclosure_lower()
+ * @param enclosure  an enclosure
+ * @param patch      the index of a patch
+ * @param band       a band
  * @return in the unit of E; the exact average is not above
  */
 HR2D_API double hr2d_enclosure_upper(const hr2d_enclosure *enclosure, size_t patch,
@@ -162,7 +166,9 @@ HR2D_API double hr2d_enclosure_upper(const hr2d_enclosure *enclosure, size_t pat
 
 /**
  * The lower end of the average of the irradiance H over a patch.
- * @param enclosure,patch,band  as for hr2d_enclosure_lower()
+ * @param enclosure  an enclosure
+ * @param patch      the index of a patch
+ * @param band       a band
  * @return in the unit of E
  */
 HR2D_API double hr2d_enclosure_lower_irradiance(const hr2d_enclosure *enclosure, size_t patch,
@@ -170,7 +176,9 @@ HR2D_API double hr2d_enclosure_lower_irradiance(const hr2d_enclosure *enclosure,
 
 /**
  * The upper end of the average of the irradiance H over a patch.
- * @param enclosure,patch,band  as for hr2d_enclosure_lower()
+ * @param enclosure  an enclosure
+ * @param patch      the index of a patch
+ * @param band       a band
  * @return in the unit of E
  */
 HR2D_API double hr2d_enclosure_upper_irradiance(const hr2d_enclosure *enclosure, size_t patch,

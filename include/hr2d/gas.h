@@ -126,8 +126,9 @@ HR2D_API size_t hr2d_scene_gases(const hr2d_scene *scene);
 
 /**
  * κ in one band.
- * @param scene,gas  a scene and the index of a gas
- * @param band       below hr2d_scene_bands()
+ * @param scene  a scene
+ * @param gas    the index of a gas
+ * @param band   below hr2d_scene_bands()
  * @return κ per scene length; NaN if there is no such gas or band
  */
 HR2D_API double hr2d_scene_absorption(const hr2d_scene *scene, size_t gas, size_t band);

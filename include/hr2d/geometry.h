@@ -40,8 +40,9 @@ typedef struct hr2d_segment {
 
 /**
  * The side of the line a→b on which the point c lies. Exact for all finite coordinates.
- * @param a,b  two points of the line
- * @param c    the point
+ * @param a  a point of the line
+ * @param b  another one
+ * @param c  the point
  * @retval 1   c is on the left
  * @retval -1  c is on the right
  * @retval 0   c is exactly on the line
@@ -51,7 +52,8 @@ HR2D_API int hr2d_orientation(hr2d_point a, hr2d_point b, hr2d_point c);
 /**
  * The unoccluded exchange area AF = ∫i∫j G dy dx = A_i F_ij = A_j F_ji of two segments (paper,
  * section 3.1). Each segment is clipped at the horizon of the other.
- * @param i,j  two segments in any position; they may touch or cross
+ * @param i  a segment
+ * @param j  a segment in any position; they may touch or cross
  * @return AF in scene lengths, with 0 ≤ AF ≤ min(A_i, A_j) up to rounding; 0 if neither segment
  *         sees the front of the other; NaN if a coordinate is not finite
  *
@@ -63,8 +65,10 @@ HR2D_API double hr2d_exchange_area(const hr2d_segment *i, const hr2d_segment *j)
 
 /**
  * The kernel G(x,y) = cosθx cosθy / (2r) of equation (1), without visibility.
- * @param i,x  a segment and a point on it
- * @param j,y  another segment and a point on it
+ * @param i  a segment
+ * @param x  a point on it
+ * @param j  another segment
+ * @param y  a point on it
  * @return G ≥ 0, per scene length; 0 if one point is not in front of the other segment;
  *         infinity if x and y coincide and the segments face each other; NaN if a coordinate is
  *         not finite

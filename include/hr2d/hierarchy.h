@@ -143,22 +143,25 @@ HR2D_API hr2d_status hr2d_hierarchy_originals(const hr2d_hierarchy *hierarchy,
 
 /**
  * The level of an element.
- * @param hierarchy,element  a hierarchy and the number of an element
+ * @param hierarchy  a hierarchy
+ * @param element    the number of an element
  * @return the level; a root is on level 0
  */
 HR2D_API unsigned hr2d_element_level(const hr2d_hierarchy *hierarchy, uint32_t element);
 
 /**
  * The parent of an element.
- * @param hierarchy,element  a hierarchy and the number of an element
+ * @param hierarchy  a hierarchy
+ * @param element    the number of an element
  * @return the number of the parent; a root is its own parent
  */
 HR2D_API uint32_t hr2d_element_parent(const hr2d_hierarchy *hierarchy, uint32_t element);
 
 /**
  * Finds the leaf that contains a point of a patch. Cost: one step per level.
- * @param hierarchy,patch  a hierarchy and the index of a patch
- * @param t                fraction of the patch in [0,1], counted from its start
+ * @param hierarchy  a hierarchy
+ * @param patch      the index of a patch
+ * @param t          fraction of the patch in [0,1], counted from its start
  * @return the number of the leaf; for the border of two leaves, the leaf behind the border
  */
 HR2D_API uint32_t hr2d_hierarchy_leaf(const hr2d_hierarchy *hierarchy, size_t patch, double t);
@@ -208,8 +211,10 @@ HR2D_API hr2d_status hr2d_hierarchy_pull(const hr2d_hierarchy *hierarchy, size_t
 /**
  * Push (paper, section 2): adds to each element the field of its ancestors, in terms of its
  * own φ_l. It is the transpose of the pull in the scalar product Σ A x y over elements.
- * @param hierarchy,bands,field  as for hr2d_hierarchy_pull(); all values are read, and those of
- *                               elements that are not roots are changed
+ * @param hierarchy  a hierarchy
+ * @param bands      at least 1
+ * @param field      as for hr2d_hierarchy_pull(); all values are read, and those of elements
+ *                   that are not roots are changed
  * @return as hr2d_hierarchy_pull()
  */
 HR2D_API hr2d_status hr2d_hierarchy_push(const hr2d_hierarchy *hierarchy, size_t bands,

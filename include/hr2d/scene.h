@@ -347,14 +347,16 @@ HR2D_API size_t hr2d_scene_bands(const hr2d_scene *scene);
 
 /**
  * The segment of a patch, as it was given.
- * @param scene,patch  a scene and the index of a patch
+ * @param scene  a scene
+ * @param patch  the index of a patch
  * @return the segment in scene lengths
  */
 HR2D_API hr2d_segment hr2d_scene_segment(const hr2d_scene *scene, size_t patch);
 
 /**
  * The length A of a patch: the hypotenuse of the differences of its coordinates.
- * @param scene,patch  a scene and the index of a patch
+ * @param scene  a scene
+ * @param patch  the index of a patch
  * @return A in scene lengths; the relative error is at most 3·2^-53 if hypot() is accurate to
  *         one unit in the last place
  */
@@ -362,7 +364,8 @@ HR2D_API double hr2d_scene_length(const hr2d_scene *scene, size_t patch);
 
 /**
  * The name of a patch.
- * @param scene,patch  a scene and the index of a patch
+ * @param scene  a scene
+ * @param patch  the index of a patch
  * @return the name, owned by the scene
  */
 HR2D_API const char *hr2d_scene_name(const hr2d_scene *scene, size_t patch);
@@ -379,24 +382,27 @@ HR2D_API hr2d_status hr2d_scene_find(const hr2d_scene *scene, const char *name, 
 
 /**
  * The emission of a patch in one band.
- * @param scene,patch  a scene and the index of a patch
- * @param band         below hr2d_scene_bands()
+ * @param scene  a scene
+ * @param patch  the index of a patch
+ * @param band   below hr2d_scene_bands()
  * @return E, power per scene length; negative only on a patch of given flux (thermal.h)
  */
 HR2D_API double hr2d_scene_emission(const hr2d_scene *scene, size_t patch, size_t band);
 
 /**
  * The reflectance of a patch in one band.
- * @param scene,patch  a scene and the index of a patch
- * @param band         below hr2d_scene_bands()
+ * @param scene  a scene
+ * @param patch  the index of a patch
+ * @param band   below hr2d_scene_bands()
  * @return ρ, dimensionless
  */
 HR2D_API double hr2d_scene_reflectance(const hr2d_scene *scene, size_t patch, size_t band);
 
 /**
  * The transmittance of a patch in one band.
- * @param scene,patch  a scene and the index of a patch
- * @param band         below hr2d_scene_bands()
+ * @param scene  a scene
+ * @param patch  the index of a patch
+ * @param band   below hr2d_scene_bands()
  * @return τ, dimensionless; 0 unless the patch is a side of a pane
  */
 HR2D_API double hr2d_scene_transmittance(const hr2d_scene *scene, size_t patch, size_t band);

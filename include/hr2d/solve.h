@@ -181,7 +181,9 @@ HR2D_API void hr2d_solution_destroy(hr2d_solution *solution);
 
 /**
  * The average of B over a patch.
- * @param solution,patch,band  a solution, the index of a patch and a band
+ * @param solution  a solution
+ * @param patch     the index of a patch
+ * @param band      a band
  * @return the average, in the unit of E
  */
 HR2D_API double hr2d_solution_average(const hr2d_solution *solution, size_t patch, size_t band);
@@ -194,9 +196,10 @@ HR2D_API double hr2d_solution_average(const hr2d_solution *solution, size_t patc
  * is the polynomial of the leaf, on a border the mean of both. The back of a two-sided patch
  * starts where its front ends.
  *
- * @param solution,patch  a solution and the index of a patch
- * @param t               fraction of the patch in [0,1], counted from its start
- * @param band            the band
+ * @param solution  a solution
+ * @param patch     the index of a patch
+ * @param t         fraction of the patch in [0,1], counted from its start
+ * @param band      the band
  * @return B in the unit of E; cost: one step per level
  */
 HR2D_API double hr2d_solution_at(const hr2d_solution *solution, size_t patch, double t,
@@ -208,12 +211,13 @@ HR2D_API double hr2d_solution_at(const hr2d_solution *solution, size_t patch, do
  * Far more accurate than hr2d_solution_at(), in which B jumps from leaf to leaf, and more
  * expensive.
  *
- * @param solution,patch  a solution and the index of a patch
- * @param t               `count` fractions of the patch in [0,1], counted from its start; where
- *                        another patch touches this point, B is the limit from the inside of
- *                        this patch, on the side of its middle
- * @param count           number of points
- * @param value           receives `count` × bands values in the unit of E, point by point
+ * @param solution  a solution
+ * @param patch     the index of a patch
+ * @param t         `count` fractions of the patch in [0,1], counted from its start; where
+ *                  another patch touches this point, B is the limit from the inside of
+ *                  this patch, on the side of its middle
+ * @param count     number of points
+ * @param value     receives `count` × bands values in the unit of E, point by point
  * @retval HR2D_OK      success
  * @retval HR2D_ENOMEM  an allocation failed
  *
@@ -228,8 +232,11 @@ HR2D_API hr2d_status hr2d_solution_gather(const hr2d_solution *solution, size_t 
  * The irradiance H at points of a patch after one more gather: H' = ∫ G V B_h plus the light
  * from the background and the sun, with G and V exact. Patches that reflect nothing have it,
  * too.
- * @param solution,patch,t,count  as for hr2d_solution_gather()
- * @param value                   receives `count` × bands values in the unit of E
+ * @param solution  a solution
+ * @param patch     the index of a patch
+ * @param t         `count` fractions of the patch, as for hr2d_solution_gather()
+ * @param count     the number of points
+ * @param value     receives `count` × bands values in the unit of E
  * @return as hr2d_solution_gather(), with its cost
  */
 HR2D_API hr2d_status hr2d_solution_gather_irradiance(const hr2d_solution *solution,
@@ -238,8 +245,11 @@ HR2D_API hr2d_status hr2d_solution_gather_irradiance(const hr2d_solution *soluti
 
 /**
  * The net flux B − H = E − (1−ρ) H' at points of a patch; negative where the patch gains.
- * @param solution,patch,t,count  as for hr2d_solution_gather()
- * @param value                   receives `count` × bands values in the unit of E
+ * @param solution  a solution
+ * @param patch     the index of a patch
+ * @param t         `count` fractions of the patch, as for hr2d_solution_gather()
+ * @param count     the number of points
+ * @param value     receives `count` × bands values in the unit of E
  * @return as hr2d_solution_gather(), with its cost
  */
 HR2D_API hr2d_status hr2d_solution_gather_net_flux(const hr2d_solution *solution, size_t patch,
@@ -297,7 +307,9 @@ HR2D_API double hr2d_solution_element_irradiance(const hr2d_solution *solution,
 /**
  * The average over a patch of the irradiance H, which arrives from other patches, from the
  * background and from the sun. Without the last part it is H less hr2d_scene_sunlight().
- * @param solution,patch,band  a solution, the index of a patch and a band
+ * @param solution  a solution
+ * @param patch     the index of a patch
+ * @param band      a band
  * @return H, power per length, in the unit of E
  */
 HR2D_API double hr2d_solution_irradiance(const hr2d_solution *solution, size_t patch,
@@ -305,9 +317,10 @@ HR2D_API double hr2d_solution_irradiance(const hr2d_solution *solution, size_t p
 
 /**
  * H at a point of a patch, computed as in hr2d_solution_at().
- * @param solution,patch  a solution and the index of a patch
- * @param t               fraction of the patch in [0,1], counted from its start
- * @param band            the band
+ * @param solution  a solution
+ * @param patch     the index of a patch
+ * @param t         fraction of the patch in [0,1], counted from its start
+ * @param band      the band
  * @return H in the unit of E
  */
 HR2D_API double hr2d_solution_irradiance_at(const hr2d_solution *solution, size_t patch,
@@ -315,7 +328,9 @@ HR2D_API double hr2d_solution_irradiance_at(const hr2d_solution *solution, size_
 
 /**
  * The average net flux B − H that leaves a patch.
- * @param solution,patch,band  a solution, the index of a patch and a band
+ * @param solution  a solution
+ * @param patch     the index of a patch
+ * @param band      a band
  * @return B − H, power per length, in the unit of E; negative if the patch gains power
  */
 HR2D_API double hr2d_solution_net_flux(const hr2d_solution *solution, size_t patch,
@@ -323,14 +338,16 @@ HR2D_API double hr2d_solution_net_flux(const hr2d_solution *solution, size_t pat
 
 /**
  * The balance of the power of a band.
- * @param solution,band  a solution and a band
+ * @param solution  a solution
+ * @param band      a band
  * @return the balance: emitted + received = absorbed + escaped
  */
 HR2D_API hr2d_power hr2d_solution_power(const hr2d_solution *solution, size_t band);
 
 /**
  * The uncertainty of that balance because images of a period are cut off (symmetry.h).
- * @param solution,band  a solution and a band
+ * @param solution  a solution
+ * @param band      a band
  * @return the error that `received` and `escaped` may each have from this; that of `absorbed`
  *         follows from the averages of H. 0 if no visible image is cut off; infinite if it is
  *         unknown, as after hr2d_solve_to() in a time that does not suffice. Averages may be

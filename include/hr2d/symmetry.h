@@ -141,8 +141,9 @@ HR2D_API size_t hr2d_scene_images(const hr2d_scene *scene);
 
 /**
  * An image of a patch.
- * @param scene,patch  a committed scene and the index of a patch
- * @param image        below hr2d_scene_images()
+ * @param scene  a committed scene
+ * @param patch  the index of a patch
+ * @param image  below hr2d_scene_images()
  * @return the segment, in scene lengths, with its front on the left
  */
 HR2D_API hr2d_segment hr2d_scene_image(const hr2d_scene *scene, size_t patch, size_t image);

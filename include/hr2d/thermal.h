@@ -210,16 +210,18 @@ HR2D_API hr2d_status hr2d_scene_set_weights(hr2d_scene *scene, const double *wei
 
 /**
  * The temperature or heat flux that is given of a patch.
- * @param scene,patch  a scene and the index of a patch
- * @param value        receives T or q; NaN if neither is given; may be NULL
+ * @param scene  a scene
+ * @param patch  the index of a patch
+ * @param value  receives T or q; NaN if neither is given; may be NULL
  * @return which of them it is
  */
 HR2D_API hr2d_heat hr2d_scene_heat(const hr2d_scene *scene, size_t patch, double *value);
 
 /**
  * The emissivity of a patch in one band, as it was given.
- * @param scene,patch  a scene and the index of a patch
- * @param band         below hr2d_scene_bands()
+ * @param scene  a scene
+ * @param patch  the index of a patch
+ * @param band   below hr2d_scene_bands()
  * @return ε; NaN if neither T nor q is given, or if q is and ε depends on T. Of a given T it is
  *         that of this T
  */
@@ -227,9 +229,10 @@ HR2D_API double hr2d_scene_emissivity(const hr2d_scene *scene, size_t patch, siz
 
 /**
  * The emissivity of a patch at a temperature.
- * @param scene,patch  a scene and the index of a patch
- * @param band         below hr2d_scene_bands()
- * @param kelvin       T ≥ 0; does not matter unless q is given and ε depends on T
+ * @param scene   a scene
+ * @param patch   the index of a patch
+ * @param band    below hr2d_scene_bands()
+ * @param kelvin  T ≥ 0; does not matter unless q is given and ε depends on T
  * @return ε; NaN if neither T nor q is given
  */
 HR2D_API double hr2d_scene_emissivity_at(const hr2d_scene *scene, size_t patch, size_t band,
@@ -238,8 +241,9 @@ HR2D_API double hr2d_scene_emissivity_at(const hr2d_scene *scene, size_t patch, 
 /**
  * The temperature of a patch on which H arrives: given, or in a scene of one band the root of
  * ε(T)(σT⁴ − H) = q.
- * @param scene,patch  a scene and the index of a patch
- * @param irradiance   H ≥ 0 in W/m²
+ * @param scene       a scene
+ * @param patch       the index of a patch
+ * @param irradiance  H ≥ 0 in W/m²
  * @return T; NaN if it is not known, or cannot be
  */
 HR2D_API double hr2d_scene_temperature(const hr2d_scene *scene, size_t patch,
@@ -321,9 +325,12 @@ HR2D_API hr2d_status hr2d_solution_temperatures(const hr2d_solution *solution,
 /**
  * T at points of a patch: given, from H of hr2d_solution_gather_irradiance(), or in several
  * bands that of the patch.
- * @param solution,patch,t,count  as for hr2d_solution_gather()
- * @param kelvin                  receives `count` values; NaN where T is not known, or
- *                                H + q/ε is negative
+ * @param solution  a solution
+ * @param patch     the index of a patch
+ * @param t         `count` fractions of the patch, as for hr2d_solution_gather()
+ * @param count     the number of points
+ * @param kelvin    receives `count` values; NaN where T is not known, or
+ *                  H + q/ε is negative
  * @return as hr2d_solution_gather(), with its cost
  */
 HR2D_API hr2d_status hr2d_solution_gather_temperature(const hr2d_solution *solution,

@@ -32,7 +32,8 @@ extern "C" {
 
 /**
  * The exchange area AF = ∫i∫j G V of two segments with occluders between them.
- * @param i,j       two segments
+ * @param i         a segment
+ * @param j         another one
  * @param occluder  `count` segments that block light from either side. They may have any
  *                  position, and may touch, overlap and cross. A segment has no effect if it is
  *                  behind i or j, outside of the convex hull of both, or along i or j
@@ -77,8 +78,12 @@ typedef struct hr2d_past_options {
 /**
  * hr2d_exchange_area_occluded() with options, so that it can be stopped. With 100,000 occluders
  * it takes a tenth of a second and more.
- * @param i,j,occluder,count,area  as there
- * @param options  NULL for the defaults
+ * @param i         a segment
+ * @param j         another one
+ * @param occluder  as there
+ * @param count     as there
+ * @param area      as there
+ * @param options   NULL for the defaults
  * @retval other   the status of the progress callback; otherwise as there
  */
 HR2D_API hr2d_status hr2d_exchange_area_past(const hr2d_segment *i, const hr2d_segment *j,

@@ -3,6 +3,7 @@
 # Each public header compiles alone, as C11 and as C++11, is reached through hr2d.h,
 # and shows nothing of GSL, of jansson or of config.h.  The programs in hr2d.h and README.md
 # compile, too.  Headers of unstable interface say so, and are those of doc/compatibility.md.
+# Where CC is clang it compares their comments with what they declare.
 set -eu
 status=0
 work=$(mktemp -d)
@@ -20,13 +21,24 @@ compile() {
   fi
 }
 
+# ---- comments: a parameter that no function has
+# shellcheck disable=SC2086
+documented() { printf '%s\n' "$@" | $CC -std=c11 -fsyntax-only -Wdocumentation $flags -x c -; }
+if documented 'int f(int x);' 2>/dev/null; then
+  flags="$flags -Wdocumentation"
+  if documented '/** @param y  none */' 'int f(int x);' 2>/dev/null; then
+    echo "a parameter that a function does not have would not be found" >&2
+    status=1
+  fi
+fi
+
 for path in "$HR2D_SRCDIR"/include/hr2d/*.h "$HR2D_BUILDDIR/include/hr2d/version.h"; do
   header=hr2d/${path##*/}
   # Words of flags are meant to be split.
   # shellcheck disable=SC2086
   {
     compile c "$header" $CC -std=c11 -Wstrict-prototypes $flags
-    [ -z "$CXX" ] || compile c++ "$header" $CXX -std=c++11 $flags
+    [ -z "$CXX" ] || compile c++ "$header" $CXX -std=c++11 ${flags%-Wdocumentation}
   }
   if grep -nE 'gsl_|<gsl/|jansson\.h|json_t|config\.h|HAVE_' "$path"; then
     echo "$header shows what it must not" >&2
