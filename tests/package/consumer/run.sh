@@ -53,13 +53,24 @@ by_tool() {
   "$@" >"$work/log" 2>&1 || { cat "$work/log" >&2; exit 1; }
   "$work/$tool/c"
   "$work/$tool/cpp"
+  if [ "$tool,$static" = cmake,ON ]; then
+    # These start where there is no shared library.
+    (unset LD_LIBRARY_PATH && "$work/cmake/c-static" && "$work/cmake/cpp-static")
+    if [ -n "$shared" ] && ldd "$work/cmake/c-static" | grep libhr2d; then
+      echo "hr2d::hr2d_static links the shared library" >&2
+      exit 1
+    fi
+    tool="cmake, static, too:"
+  fi
   echo "installcheck: $tool ok"
 }
+static=OFF
+[ ! -f "$DESTDIR$libdir/libhr2d.a" ] || static=ON
 make_cmake() {
   # libdir is PREFIX/lib or PREFIX/lib/ARCHITECTURE.  GSL and jansson, which a static library
   # needs, are not below DESTDIR.
   unset PKG_CONFIG_SYSROOT_DIR
-  cmake -S "$here" -B "$work/cmake" -DVERSION="$VERSION" \
+  cmake -S "$here" -B "$work/cmake" -DVERSION="$VERSION" -DSTATIC="$static" \
     -DCMAKE_PREFIX_PATH="$DESTDIR$libdir/..;$DESTDIR$libdir/../.." && cmake --build "$work/cmake"
 }
 make_meson() {
