@@ -34,22 +34,24 @@ fuzz_replay_pair_SOURCES = fuzz/fuzz-pair.c fuzz/replay.c
 fuzz_replay_pair_CPPFLAGS = $(fuzz_pair_cppflags)
 fuzz_replay_pair_LDADD = $(fuzz_libs)
 
+# What has main(): libFuzzer, or another engine in the variable, as packaging/oss-fuzz/ has it.
+FUZZING_ENGINE = -fsanitize=fuzzer
 FUZZERS = fuzz/fuzz-scene fuzz/fuzz-state fuzz/fuzz-api fuzz/fuzz-pair
 EXTRA_PROGRAMS += $(FUZZERS)
 CLEANFILES += $(FUZZERS)
 fuzz_fuzz_scene_SOURCES = fuzz/fuzz-scene.c
 fuzz_fuzz_scene_LDADD = $(fuzz_libs)
-fuzz_fuzz_scene_LDFLAGS = -fsanitize=fuzzer
+fuzz_fuzz_scene_LDFLAGS = $(FUZZING_ENGINE)
 fuzz_fuzz_state_SOURCES = fuzz/fuzz-state.c
 fuzz_fuzz_state_LDADD = $(fuzz_libs)
-fuzz_fuzz_state_LDFLAGS = -fsanitize=fuzzer
+fuzz_fuzz_state_LDFLAGS = $(FUZZING_ENGINE)
 fuzz_fuzz_api_SOURCES = fuzz/fuzz-api.c
 fuzz_fuzz_api_LDADD = $(fuzz_libs)
-fuzz_fuzz_api_LDFLAGS = -fsanitize=fuzzer
+fuzz_fuzz_api_LDFLAGS = $(FUZZING_ENGINE)
 fuzz_fuzz_pair_SOURCES = fuzz/fuzz-pair.c
 fuzz_fuzz_pair_CPPFLAGS = $(fuzz_pair_cppflags)
 fuzz_fuzz_pair_LDADD = $(fuzz_libs)
-fuzz_fuzz_pair_LDFLAGS = -fsanitize=fuzzer
+fuzz_fuzz_pair_LDFLAGS = $(FUZZING_ENGINE)
 
 FUZZ_SECONDS = 60
 if ENABLE_FUZZERS

@@ -194,6 +194,7 @@ OUTSIDE = \
 	tests/package/check-python.sh tests/package/check-wheel.sh \
 	tests/package/check-release.sh \
 	tests/package/check-vectors.sh \
+	tests/package/check-recipes.sh \
 	tests/adversary/check-adversary-controls.sh
 
 TEST_EXTENSIONS = .sh .c
@@ -391,7 +392,10 @@ check-valgrind:
 PAPERWORK = tests/docs/check-docs.sh tests/program/check-completion.sh tests/program/check-help.sh tests/program/check-digits.sh \
 	tests/package/check-constants.sh tests/package/check-exports.sh \
 	tests/package/check-headers.sh tests/package/check-layers.sh \
-	tests/package/check-python.sh tests/package/check-wheel.sh tests/package/check-vectors.sh \
+	tests/package/check-python.sh \
+	tests/package/check-wheel.sh \
+	tests/package/check-vectors.sh \
+	tests/package/check-recipes.sh \
 	tests/adversary/check-adversary-controls.sh
 # Each suite is one process: forks of a process with sanitizers took most of the time.
 check-sanitized:
@@ -450,6 +454,7 @@ installcheck-local:
 	VERSION='$(VERSION)' $(SHELL) $(srcdir)/tests/package/consumer/run.sh $(srcdir)/tests/package/consumer
 
 EXTRA_DIST += $(OUTSIDE) tests/docs/blocks.awk tests/docs/compare.awk tests/docs/pages.sh tests/package/python.sh \
+	tests/package/recipes.py \
 	tests/digits.sh tests/lsan.supp tests/matrix.sh tests/summary.sh \
 	tests/data tests/program/cli tests/program/schemas.py tests/program/vti.py tests/program/vtp.py tests/threads/race.c \
 	tests/package/consumer/main.c \

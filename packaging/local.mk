@@ -1,0 +1,26 @@
+# Recipes for other package managers; see packaging/README.md and
+# tests/package/check-recipes.sh.
+EXTRA_DIST += \
+	packaging/README.md \
+	packaging/conda/recipe.yaml.in \
+	packaging/homebrew/libhr2d.rb.in \
+	packaging/homepage \
+	packaging/make.sh \
+	packaging/nix/default.nix.in \
+	packaging/oss-fuzz/Dockerfile.in \
+	packaging/oss-fuzz/build.sh.in \
+	packaging/oss-fuzz/project.yaml.in \
+	packaging/rpm/libhr2d.spec.in \
+	packaging/spack/package.py.in \
+	packaging/vcpkg/portfile.cmake.in \
+	packaging/vcpkg/vcpkg.json.in
+
+# With the checksums of the tarball, if `make dist` has made it.
+recipes:
+	@tarball=; test ! -f '$(distdir).tar.gz' || tarball='$(distdir).tar.gz'; \
+	HOMEPAGE='$(HOMEPAGE)' DOWNLOAD='$(DOWNLOAD)' \
+	  $(SHELL) $(srcdir)/packaging/make.sh recipes '$(VERSION)' $$tarball
+clean-recipes:
+	rm -rf recipes
+clean-local: clean-recipes
+.PHONY: recipes clean-recipes
