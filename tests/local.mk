@@ -195,6 +195,7 @@ OUTSIDE = \
 	tests/package/check-release.sh \
 	tests/package/check-vectors.sh \
 	tests/package/check-recipes.sh \
+	tests/package/check-sbom.sh \
 	tests/adversary/check-adversary-controls.sh
 
 TEST_EXTENSIONS = .sh .c
@@ -396,6 +397,7 @@ PAPERWORK = tests/docs/check-docs.sh tests/program/check-completion.sh tests/pro
 	tests/package/check-wheel.sh \
 	tests/package/check-vectors.sh \
 	tests/package/check-recipes.sh \
+	tests/package/check-sbom.sh \
 	tests/adversary/check-adversary-controls.sh
 # Each suite is one process: forks of a process with sanitizers took most of the time.
 check-sanitized:
