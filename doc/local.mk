@@ -26,6 +26,9 @@ EXTRA_DIST += \
 	doc/architecture-figure.sh \
 	doc/figures.sh \
 	doc/figures \
+	doc/gallery \
+	doc/gallery.md \
+	doc/draw-gallery.sh \
 	doc/gas.md \
 	doc/howto \
 	doc/tutorial \
@@ -84,6 +87,13 @@ figures: tools/hr2d$(EXEEXT)
 	HR2D_SCENES='$(abs_top_srcdir)/examples/scenes' \
 	HR2D_SRCDIR='$(abs_top_srcdir)' \
 	$(SHELL) $(srcdir)/doc/figures.sh '$(srcdir)/doc/figures' doc/figures-data
+
+# `make gallery` draws the pictures of doc/gallery.md into the source tree, by the commands of that page.
+gallery: tools/hr2d$(EXEEXT)
+	HR2D_PROGRAM='$(abs_top_builddir)/tools/hr2d$(EXEEXT)' \
+	HR2D_SRCDIR='$(abs_top_srcdir)' HR2D_BUILDDIR='$(abs_top_builddir)' \
+	$(SHELL) $(srcdir)/doc/draw-gallery.sh '$(abs_top_srcdir)/doc/gallery'
+.PHONY: gallery
 
 # `make architecture-figure` draws the storeys of src/ for doc/architecture.md, from the tree.
 architecture-figure: libhr2d-core.la

@@ -29,6 +29,25 @@ while read -r page; do
     check "$page shows what happens" run_page "$HR2D_SRCDIR/$page" "$work/page"
   fi
 done <"$work/pages"
+
+# ---- the gallery: each picture that its page shows is kept, and drawn by a command of the page
+# gallery PAGE FOLDER: pictures that the page does not show, keep or draw as it should
+gallery() {
+  grep -o '](gallery/[^()]*)' "$1" | sed 's|.*gallery/||; s|)$||' | sort >"$work/shown"
+  sed -n 's/^[$>].*--\(draw\|plot\|tiles\|watch\) \([^ ]*\).*/\2/p' "$1" | sort >"$work/drawn"
+  (cd "$2" && ls) | sort >"$work/kept"
+  diff "$work/shown" "$work/drawn" | sed -n 's/^</not drawn:/p; s/^>/not shown:/p'
+  diff "$work/shown" "$work/kept" | sed -n 's/^</not kept:/p; s/^>/kept, not shown:/p'
+  (cd "$HR2D_SRCDIR/doc/figures" && ls) | grep -xF -f "$work/kept" | sed 's/^/as in doc\/figures: /'
+}
+page=$HR2D_SRCDIR/doc/gallery.md
+pictures=$HR2D_SRCDIR/doc/gallery
+check "pictures of the gallery are those of its commands; not $(gallery "$page" "$pictures")" \
+  [ -z "$(gallery "$page" "$pictures")" ]
+sed 's/--draw walls.png/--draw wall.png/; /(gallery\/hall.png)/d' "$page" >"$work/page.md"
+check "others would be found" [ "$(gallery "$work/page.md" "$pictures" | sort | tr '\n' ';')" = \
+  'kept, not shown: hall.png;not drawn: walls.png;not shown: hall.png;not shown: wall.png;' ]
+
 check "there are pages" [ "$(wc -l <"$work/pages")" -ge 25 ]
 
 # ---- commands that are shown and not run name commands and options that exist
