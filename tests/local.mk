@@ -178,6 +178,7 @@ OUTSIDE = \
 	tests/program/check-digits.sh \
 	tests/program/check-field.sh \
 	tests/program/check-vti.sh \
+	tests/program/check-pfm.sh \
 	tests/program/check-pictures.sh \
 	tests/program/check-provenance.sh \
 	tests/program/check-schemas.sh \
@@ -458,7 +459,7 @@ installcheck-local:
 EXTRA_DIST += $(OUTSIDE) tests/docs/blocks.awk tests/docs/compare.awk tests/docs/pages.sh tests/package/python.sh \
 	tests/package/recipes.py \
 	tests/digits.sh tests/lsan.supp tests/matrix.sh tests/summary.sh \
-	tests/data tests/program/cli tests/program/schemas.py tests/program/vti.py tests/program/vtp.py tests/threads/race.c \
+	tests/data tests/program/cli tests/program/pfm.py tests/program/schemas.py tests/program/vti.py tests/program/vtp.py tests/threads/race.c \
 	tests/package/consumer/main.c \
 	tests/package/consumer/main.cpp tests/package/consumer/run.sh \
 	tests/package/consumer/CMakeLists.txt tests/package/consumer/meson.build

@@ -111,6 +111,7 @@ tools_hr2d_SOURCES = $(SOLVE_SOURCES) \
 	tools/field/factors.c \
 	tools/field/field.h \
 	tools/field/json.c \
+	tools/field/pfm.c \
 	tools/field/points.c \
 	tools/field/temperature.c \
 	tools/field/vtk.c \

@@ -133,8 +133,8 @@ int options_check(const options *o, const given_options *given) {
                           o->epsilon);
   if (o->points && output_is_stdout(o->points) && output_is_same(OPTIONS_STDIN, o->scene))
     return complain_usage("SCENE and --points cannot both be standard input");
-  if (o->points && (o->grid.columns || o->box.given || o->vtk || o->tolerance > 0))
-    return complain_usage("--points excludes --grid, --box, --tolerance and --vtk");
+  if (o->points && (o->grid.columns || o->box.given || o->vtk || o->pfm || o->tolerance > 0))
+    return complain_usage("--points excludes --grid, --box, --tolerance, --vtk and --pfm");
   if ((o->normal.x != 0 || o->normal.y != 0) && o->tolerance > 0)
     return complain_usage("--normal and --tolerance exclude each other");
   if (o->from > 0 && o->to >= o->from)
@@ -149,6 +149,7 @@ int options_check_outputs(const options *o) {
   if (!status) status = output_check(o->mtx);
   if (!status) status = output_check(o->elmer);
   if (!status) status = output_check(o->vtk);
+  if (!status) status = output_check(o->pfm);
   if (!status) status = output_check(o->state);
   if (!status) status = output_check(o->draw);
   if (!status) status = output_check(o->tiles);
@@ -159,5 +160,5 @@ int options_check_outputs(const options *o) {
 int options_want_table(const options *o) {
   return !o->quiet && !output_is_stdout(o->json) && !output_is_stdout(o->csv) &&
          !output_is_stdout(o->factors) && !output_is_stdout(o->mtx) &&
-         !output_is_stdout(o->elmer) && !output_is_stdout(o->vtk);
+         !output_is_stdout(o->elmer) && !output_is_stdout(o->vtk) && !output_is_stdout(o->pfm);
 }

@@ -47,6 +47,7 @@ static int set_grid(field *f) {
                longer = fmax(width, height);
   g->columns = f->options->grid.columns ? f->options->grid.columns : nodes_along(width, longer);
   g->rows = f->options->grid.rows ? f->options->grid.rows : nodes_along(height, longer);
+  if (f->options->pfm) field_to_pixel_centres(g);
   f->count = g->columns * g->rows;
   f->at = malloc(f->count * sizeof *f->at);
   for (size_t k = 0; k < f->count && f->at; k++) {
@@ -171,6 +172,7 @@ static int report(const field *f, const run *r, double start) {
   if (o->factors && !status) status = field_write_factors(f, o->factors);
   if (o->json && !status) status = field_write_json(f, o->json);
   if (o->vtk && !status) status = field_write_vtk(f, o->vtk);
+  if (o->pfm && !status) status = field_write_pfm(f, o->pfm);
   if (o->draw && !status) status = draw_run(r, o->draw);
   return status;
 }
@@ -201,6 +203,7 @@ int field_command(const options *o) {
   f.bands = hr2d_scene_bands(scene);
   f.heat = run_heat_exists(scene);
   status = draw_check_scene(o, scene);
+  if (!status) status = field_check_pfm(&f);
   if (!status) status = o->points ? field_read_points(&f, o->points) : set_grid(&f);
   if (!status && f.normal && (o->normal.x != 0 || o->normal.y != 0))
     status = complain_usage("--normal is for points that have no normals of their own");

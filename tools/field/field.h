@@ -40,6 +40,12 @@ int field_write_factors(const field *f, const char *path);
 /* json.c */
 int field_write_json(const field *f, const char *path);
 
+/* pfm.c: a grid as float map, of one band or three; outside the numbers are NaN.  With --pfm
+   the box is divided into pixels, and the nodes of the grid are their centres. */
+int field_check_pfm(const field *f);
+void field_to_pixel_centres(hr2d_field_grid *g);
+int field_write_pfm(const field *f, const char *path);
+
 /* vtk.c: a grid as VTK image data; outside the numbers are NaN. */
 int field_write_vtk(const field *f, const char *path);
 

@@ -38,8 +38,9 @@ int field_write_json(const field *f, const char *path) {
   status = json_write_value(out.stream, json_text(f->options->scene));
   fputs(",\n  \"provenance\": ", out.stream);
   if (!status) status = json_write_value(out.stream, provenance_json());
-  fprintf(out.stream, ",\n  \"columns\": %zu,\n  \"rows\": %zu,\n  \"points\": [",
-          f->grid.columns, f->grid.rows);
+  fprintf(out.stream, ",\n  \"columns\": %zu,\n  \"rows\": %zu,\n%s  \"points\": [",
+          f->grid.columns, f->grid.rows,
+          f->options->pfm ? "  \"nodes\": \"pixel centres\",\n" : "");
   for (size_t k = 0; k < f->count && !status && !ferror(out.stream); k++) {
     fputs(k ? ",\n    " : "\n    ", out.stream);
     status = json_write_value(out.stream, point(f, k));
