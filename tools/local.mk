@@ -101,6 +101,7 @@ tools_hr2d_SOURCES = $(SOLVE_SOURCES) \
 	tools/factors/command.c \
 	tools/factors/csv.c \
 	tools/factors/elmer.c \
+	tools/factors/moose.c \
 	tools/factors/group.c \
 	tools/factors/factors.h \
 	tools/factors/json.c \

@@ -414,6 +414,31 @@ for scene in square-room furnace partition castel-del-monte; do
   check "Matrix Market of $scene has the numbers of CSV" cmp -s "$work/f.read" "$work/f.numbers"
   check "Elmer's file of $scene has them, too" cmp -s "$work/f.of-elmer" "$work/f.numbers"
 done
+# An independent reader of MOOSE's list of rows: between quotation marks, parted by semicolons.
+read_moose() { # read_moose INPUT
+  tr '\n' ' ' <"$1" | sed -n "s/.*view_factors = '\([^']*\)'.*/\1/p" | tr -s ' ' | tr ';' '\n' |
+    sed 's/^ *//; s/ *$//; s/ /,/g'
+  echo
+}
+succeeds factors "$scenes/furnace.geojson" --group --moose "$work/f.i" --csv "$work/f.csv"
+read_moose "$work/f.i" >"$work/f.read"
+sed 1d "$work/f.csv" >"$work/f.numbers"
+check "MOOSE's block has the numbers of CSV" cmp -s "$work/f.read" "$work/f.numbers"
+check "and tells where they come from" grep -q "^# hr2d .*SHA-256 of the scene" "$work/f.i"
+check "and its boundaries in their order" [ "$(sed -n "s/.*boundary = '\(.*\)'/\1/p" "$work/f.i")" = \
+  "$(sed -n 1p "$work/f.csv" | tr ',' ' ')" ]
+walls() { # walls NAME: two walls of this name
+  printf '{ "type": "FeatureCollection", "features": ['
+  printf '%s { "type": "Feature", "properties": { "name": "%s" }, "geometry":
+    { "type": "LineString", "coordinates": [[%d, 0], [1, %d]] } }' '' "$1" 0 0 , "$1" 2 1
+  printf '] }\n'
+}
+walls twin >"$work/twins.geojson"
+walls 'two words' >"$work/blank.geojson"
+expect 1 "^hr2d: .*: --moose: rows 0 and 1 are both .*--group" factors "$work/twins.geojson" --moose "$work/g.i"
+expect 1 "^hr2d: .*: --moose: row 0 .* no name that a boundary may have" factors "$work/blank.geojson" \
+  --moose "$work/g.i"
+check "what is refused leaves no file" [ ! -e "$work/g.i" ]
 sed '$d' "$work/f.dat" >"$work/short.dat"
 sed 2d "$work/f.dat" >"$work/less.dat"
 sed '$d' "$work/f.mtx" >"$work/short.mtx"

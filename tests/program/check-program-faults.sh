@@ -27,7 +27,7 @@ mkdir "$new" "$good"
 make_old() {
   rm -rf "$new"
   mkdir "$new"
-  for name in csv json mtx dat vtp svg png pdf; do echo old >"$new/x.$name"; done
+  for name in csv json mtx dat i vtp svg png pdf; do echo old >"$new/x.$name"; done
 }
 # Timing decides how many rows a study or a cost has, but no file of any kind is cut short.
 ends_well() {
@@ -38,6 +38,7 @@ ends_well() {
     [ "$(tail -c 1 "$1" | od -An -tx1 | tr -d ' ')" = 0a ] ;;
   *.dat) awk 'NF == 1 { if (left) exit bad = 1; left = $1; next } { left-- }
     END { exit bad || left }' "$1" ;;
+  *.i) [ "$(tail -n 2 "$1" | tr -d '\n')" = '  [][]' ] ;;
   *.json) [ "$(head -n 1 "$1")$(tail -n 1 "$1")" = '{}' ] ;;
   *.vtp) tail -n 1 "$1" | grep -q '</VTKFile>' ;;
   *.svg) tail -n 2 "$1" | grep -q '</svg>' ;;
@@ -84,7 +85,7 @@ arguments() { # arguments COMMAND
   stages) echo "solve $scene --multigrid 1:0.5 --eps 0.25 --max-level 5 --no-error --state $new/x.state --csv $new/x.csv" ;;
   study) echo "study $scene --to 0.125 --steps 4 --csv $new/x.csv --json $new/x.json $plot" ;;
   cost) echo "cost $scene --methods size,factors --max-seconds 0.1 --csv $new/x.csv --json $new/x.json $plot" ;;
-  factors) echo "factors $scene --csv $new/x.csv --mtx $new/x.mtx --elmer $new/x.dat --json $new/x.json" ;;
+  factors) echo "factors $scene --csv $new/x.csv --mtx $new/x.mtx --elmer $new/x.dat --moose $new/x.i --json $new/x.json" ;;
   esac
 }
 undisturbed() { # undisturbed COMMAND: what it should have written

@@ -148,6 +148,7 @@ int options_check_outputs(const options *o) {
   if (!status) status = output_check(o->factors);
   if (!status) status = output_check(o->mtx);
   if (!status) status = output_check(o->elmer);
+  if (!status) status = output_check(o->moose);
   if (!status) status = output_check(o->vtk);
   if (!status) status = output_check(o->pfm);
   if (!status) status = output_check(o->state);
@@ -160,5 +161,6 @@ int options_check_outputs(const options *o) {
 int options_want_table(const options *o) {
   return !o->quiet && !output_is_stdout(o->json) && !output_is_stdout(o->csv) &&
          !output_is_stdout(o->factors) && !output_is_stdout(o->mtx) &&
-         !output_is_stdout(o->elmer) && !output_is_stdout(o->vtk) && !output_is_stdout(o->pfm);
+         !output_is_stdout(o->elmer) && !output_is_stdout(o->moose) &&
+         !output_is_stdout(o->vtk) && !output_is_stdout(o->pfm);
 }

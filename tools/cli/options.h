@@ -144,7 +144,7 @@ typedef struct options {
   unsigned link_level;
   place_list beams_of;
   int link_parents, plot_log, resume, law, csv_comment, group;
-  const char *json, *csv, *mtx, *elmer, *vtk, *pfm, *draw, *tiles, *plot, *watch,
+  const char *json, *csv, *mtx, *elmer, *moose, *vtk, *pfm, *draw, *tiles, *plot, *watch,
       *factors; /* file names; NULL: not given */
 } options;
 

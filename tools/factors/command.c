@@ -139,6 +139,7 @@ static int report(const factors *f, double start) {
   if (o->csv) status = factors_write_csv(f);
   if (o->mtx && !status) status = factors_write_mtx(f);
   if (o->elmer && !status) status = factors_write_elmer(f);
+  if (o->moose && !status) status = factors_write_moose(f);
   if (o->json && !status) status = factors_write_json(f, o->json);
   return status;
 }

@@ -57,6 +57,9 @@ int factors_write_mtx(const factors *f);
 /* elmer.c: the entries that are not 0 as ViewFactors.dat of Elmer. */
 int factors_write_elmer(const factors *f);
 
+/* moose.c: a block of an input file of MOOSE.  Boundaries have names of their own. */
+int factors_write_moose(const factors *f);
+
 /* json.c */
 int factors_write_json(const factors *f, const char *path);
 
