@@ -285,26 +285,30 @@ void PAGE(play_exchange_areas)(const play *p, double *out, size_t count) {
   for (size_t k = 0; k < count; k++) *out++ = hr2d_linkset_get(links_of(p), k).exchange_area;
 }
 
-hr2d_status glue_field(const hr2d_solution *solution, const hr2d_field_grid *grid, double *mean,
+hr2d_status glue_field(const hr2d_solution *solution, hr2d_point low, hr2d_point high,
+                       size_t columns, size_t rows, double tolerance, double *mean,
                        unsigned char *place) {
   hr2d_field_options how = HR2D_FIELD_OPTIONS_INIT;
   hr2d_field_values values = HR2D_FIELD_VALUES_INIT;
+  hr2d_field_grid grid = HR2D_FIELD_GRID_INIT;
+  grid.low = low;
+  grid.high = high;
+  grid.columns = columns;
+  grid.rows = rows;
+  grid.tolerance = tolerance;
   how.progress = ask_page;
   values.mean = mean;
   values.place = place;
-  return hr2d_field_on_grid(solution, grid, &how, &values, NULL);
+  return hr2d_field_on_grid(solution, &grid, &how, &values, NULL);
 }
 
 hr2d_status PAGE(play_field)(play *p, double x0, double y0, double x1, double y1,
                              size_t columns, size_t rows, double tolerance, double *mean,
                              unsigned char *place) {
-  hr2d_field_grid grid = HR2D_FIELD_GRID_INIT;
-  grid.low = (hr2d_point){x0, y0};
-  grid.high = (hr2d_point){x1, y1};
-  grid.columns = columns;
-  grid.rows = rows;
-  grid.tolerance = tolerance;
-  return fail(p, glue_field(p->solution, &grid, mean, place), NULL);
+  return fail(p,
+              glue_field(p->solution, (hr2d_point){x0, y0}, (hr2d_point){x1, y1}, columns, rows,
+                         tolerance, mean, place),
+              NULL);
 }
 
 /* The study of L against N. */

@@ -13,7 +13,8 @@ __attribute__((import_module("env"), import_name("go_on"))) extern int go_on(con
                                                                              double fraction);
 
 /* The mean radiosity at the nodes of a grid, nodes × bands, and the place of each node. */
-hr2d_status glue_field(const hr2d_solution *solution, const hr2d_field_grid *grid, double *mean,
+hr2d_status glue_field(const hr2d_solution *solution, hr2d_point low, hr2d_point high,
+                       size_t columns, size_t rows, double tolerance, double *mean,
                        unsigned char *place);
 
 #endif

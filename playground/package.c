@@ -141,14 +141,10 @@ const char *PAGE(package_warnings)(void) {
 hr2d_status PAGE(package_field)(double x0, double y0, double x1, double y1, size_t columns,
                                 size_t rows, double tolerance, double *mean,
                                 unsigned char *place) {
-  hr2d_field_grid grid = HR2D_FIELD_GRID_INIT;
-  grid.low = (hr2d_point){x0, y0};
-  grid.high = (hr2d_point){x1, y1};
-  grid.columns = columns;
-  grid.rows = rows;
-  grid.tolerance = tolerance;
   host_forget();
-  const hr2d_status status = glue_field(job.run.solution, &grid, mean, place);
+  const hr2d_status status =
+      glue_field(job.run.solution, (hr2d_point){x0, y0}, (hr2d_point){x1, y1}, columns, rows,
+                 tolerance, mean, place);
   if (status) complain_call(NULL, "", status);
   return status;
 }

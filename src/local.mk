@@ -280,6 +280,7 @@ libhr2d_core_la_SOURCES = \
 	src/solve/gather-blocks.c src/solve/gather-blocks.h \
 	src/solve/gather-links.c src/solve/gather-links.h \
 	src/solve/gather-one-way.c src/solve/gather-one-way.h \
+	src/solve/first-guess.c src/solve/first-guess.h \
 	src/solve/gas-light.c src/solve/gas-light.h \
 	src/solve/gas-rows.c src/solve/gas-rows.h \
 	src/solve/heat-balance.c src/solve/heat-balance.h \

@@ -34,6 +34,13 @@ static double gas_at(const hr2di_estimator *e, size_t b) {
   return e->coarse->gas ? ldexp(e->coarse->gas[2 * b], -e->exponent_of[b]) : 0;
 }
 
+/* How much more gas takes by the finer links if a patch gets so much more. */
+static double absorbed_more(const exchanged *coarse, const exchanged *fine, size_t patch,
+                            int closed, double arrives) {
+  if (!fine->absorbed) return 0;
+  return closed ? fine->absorbed[patch] - coarse->absorbed[patch] : -arrives;
+}
+
 /* What H of a patch is off by on average. */
 static double off_at(const hr2di_estimator *e, const exchanged *coarse, const exchanged *fine,
                      size_t patch, size_t b) {
@@ -41,9 +48,7 @@ static double off_at(const hr2di_estimator *e, const exchanged *coarse, const ex
   const size_t bands = t->bands, at = patch * (bands + 1);
   const int closed = t->closed && t->closed[patch];
   const double arrives = fine->power[at + bands] - coarse->power[at + bands];
-  const double absorbed = !fine->absorbed ? 0
-                          : closed        ? fine->absorbed[patch] - coarse->absorbed[patch]
-                                          : -arrives;
+  const double absorbed = absorbed_more(coarse, fine, patch, closed, arrives);
   const double share = closed ? arrives + absorbed : 0;
   const double power = fine->power[at + b] - coarse->power[at + b] + absorbed * gas_at(e, b) -
                        share * hr2di_estimator_value(e, 0, patch, b);

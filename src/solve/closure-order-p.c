@@ -149,10 +149,9 @@ static hr2d_status find_closed(rows *r) {
    to ten times that count as none. */
 static void find_closed_by_rows(rows *r, hr2di_transport *t) {
   const double none = 10 * t->roots->accuracy;
-  const size_t field = t->gas ? t->leaves * t->order : 0;
-  for (size_t k = 0; k < field; k++) r->all[k] += t->gas[k]; /* it has taken its part of rows */
-  hr2di_transport_pull(t, r->all);
-  for (size_t k = 0; k < field; k++) r->all[k] -= t->gas[k];
+  for (size_t k = 0; k < t->leaves * t->order; k++)
+    r->row[k] = r->all[k] + (t->gas ? t->gas[k] : 0); /* which has taken its part */
+  hr2di_transport_pull(t, r->row);
   for (size_t k = 0; k < t->hierarchy->scene->patches; k++)
     r->closed[k] = fabs(1 - t->up[k * t->order]) <= none;
 }

@@ -86,10 +86,10 @@ static hr2d_status check_backs(hr2di_transport *t, const unsigned char *closed,
 }
 
 /* Gas of given heat needs all of its light: what leaves the scene would heat gas outside. */
-static hr2d_status take_heat(hr2di_transport *t, hr2di_message *message) {
+static hr2d_status take_heat(hr2di_transport *t, int all_closed, hr2di_message *message) {
   hr2di_sum all = {0, 0};
   if (!hr2di_scene_gas_is_free(t->hierarchy->scene)) return HR2D_OK;
-  if (!t->all_closed)
+  if (!all_closed)
     return hr2di_message_fail(message, HR2D_EUNSUPPORTED,
                               "the heat of the gas is given, and the scene is open: light that "
                               "leaves it would heat gas without end");
@@ -108,8 +108,8 @@ static hr2d_status close_order_1(hr2di_transport *t, int closed, uint64_t *leave
   memcpy(absorbed, t->down, t->elements * sizeof *absorbed);
   hr2d_status status = hr2di_row_sums_init(&rows, t, 0);
   *leaves = rows.leaves;
-  if (!status) t->all_closed = !memchr(rows.closed, 0, t->hierarchy->scene->patches);
-  if (!status && !t->all_closed) status = check_backs(t, rows.closed, message);
+  const int all_closed = !status && !memchr(rows.closed, 0, t->hierarchy->scene->patches);
+  if (!status && !all_closed) status = check_backs(t, rows.closed, message);
   if (!status && closed) status = hr2di_closure_set(t, &rows, absorbed);
   memcpy(t->down, absorbed, t->elements * sizeof *absorbed);
   if (!status) hr2di_transport_lower(t, t->gas);
@@ -119,7 +119,7 @@ static hr2d_status close_order_1(hr2di_transport *t, int closed, uint64_t *leave
   }
   hr2di_row_sums_clear(&rows);
   hr2di_alloc_free(&t->alloc, absorbed);
-  return status ? status : take_heat(t, message);
+  return status ? status : take_heat(t, all_closed, message);
 }
 
 static hr2d_status close_order_p(hr2di_transport *t, int closed, hr2di_message *message) {
@@ -127,7 +127,7 @@ static hr2d_status close_order_p(hr2di_transport *t, int closed, hr2di_message *
   hr2d_status status = hr2di_transport_status(t);
   if (!status) status = hr2di_closure_set_order_p(t);
   if (!status && !t->all_closed) status = check_backs(t, t->closed, message);
-  if (!status) status = take_heat(t, message);
+  if (!status) status = take_heat(t, t->all_closed, message);
   if (status) return status;
   take_rows(t);
   if (closed) return HR2D_OK;
