@@ -108,7 +108,7 @@ succeeds solve "$work/dark.geojson"
 check "without any heat nothing is known" [ "$(grep -c ' unlit ' "$work/out")" -eq 4 ]
 
 # ---- the control: scenes of E and rho have none of this
-succeeds solve "$HR2D_SRCDIR/examples/scenes/furnace.geojson" --json "$work/plain.json" \
+succeeds solve "$HR2D_SRCDIR/examples/scenes/square-room.geojson" --json "$work/plain.json" \
   --csv "$work/plain.csv"
 check "no second table" [ "$(grep -c 'T in K' "$work/out")" -eq 0 ]
 check "no temperatures in JSON" [ "$(grep -c temperature "$work/plain.json")" -eq 0 ]
