@@ -74,36 +74,11 @@ static hr2d_status read_scene(play *p, const char *text, size_t size, int cut, s
   return status ? status : hr2d_scene_commit(p->scene);
 }
 
-/* What the page neither computes nor saves, and a scene has: NULL if there is none.  Dropped,
-   it would change the answer. */
-static const char *find_missing(const hr2d_scene *scene) {
-  const hr2d_point period = hr2d_scene_period(scene);
-  for (size_t band = 0; band < hr2d_scene_bands(scene); band++)
-    if (hr2d_scene_sun(scene, band).irradiance > 0)
-      return "the scene has a sun, which this page does not compute: the program hr2d does";
-  if (hr2d_scene_sky_pieces(scene) > 0)
-    return "the scene has a sky in pieces, which this page does not compute: the program hr2d "
-           "does";
-  if (period.x != 0 || period.y != 0)
-    return "the scene has a period, which this page does not compute: the program hr2d does";
-  if (hr2d_scene_mirrors(scene) > 0)
-    return "the scene has mirrors, which this page does not compute: the program hr2d does";
-  if (hr2d_scene_gases(scene) > 0)
-    return "the scene has gas, which this page does not compute: the program hr2d does";
-  for (size_t k = 0; k < hr2d_scene_patches(scene) && hr2d_scene_bands(scene) > 1; k++)
-    if (hr2d_scene_heat(scene, k, NULL) == HR2D_HEAT_SHIELD)
-      return "the scene has shields in several bands, which this page does not compute: the "
-             "program hr2d does";
-  return NULL;
-}
-
 /* Takes the text of a scene file.  With `cut`, patches that cross are cut; *cuts receives at
    how many places. */
 hr2d_status PAGE(play_open)(play *p, const char *text, size_t size, int cut, size_t *cuts) {
   *cuts = 0;
   const hr2d_status status = read_scene(p, text, size, cut, cuts);
-  const char *missing = status ? NULL : find_missing(p->scene);
-  if (missing) return fail(p, HR2D_EUNSUPPORTED, missing);
   return fail(p, status, p->scene ? hr2d_scene_message(p->scene) : NULL);
 }
 
@@ -141,22 +116,33 @@ void PAGE(play_walls)(const play *p, double *out) {
   }
 }
 
+/* The images of patches between mirrors and in a period, without the patches themselves: how
+   many there are, and the four coordinates of each of the first `count`. */
+size_t PAGE(play_images_count)(const play *p) {
+  return (hr2d_scene_images(p->scene) - 1) * hr2d_scene_patches(p->scene);
+}
+
+void PAGE(play_images)(const play *p, double *out, size_t count) {
+  const size_t patches = hr2d_scene_patches(p->scene);
+  for (size_t k = 0; k < count; k++) {
+    const hr2d_segment s = hr2d_scene_image(p->scene, k % patches, 1 + k / patches);
+    *out++ = s.a.x, *out++ = s.a.y, *out++ = s.b.x, *out++ = s.b.y;
+  }
+}
+
 /* Solutions. */
 
-/* To a relative error, with its account.  A solution that misses its target is one, too: the
+/* Takes what package_solve() has made.  A solution that misses its target is one, too: the
    account says so. */
-hr2d_status PAGE(play_solve_to)(play *p, double error) {
-  hr2d_target target = HR2D_TARGET_INIT;
-  drop_solution(p);
-  target.error = error;
-  target.points = 1;
-  target.progress = ask_page;
-  const hr2d_status status = hr2d_solve_to(p->scene, &target, &p->solution, &p->account);
-  if (status == HR2D_EACCURACY && p->solution) {
-    p->message = p->account.reason;
-    return HR2D_OK;
-  }
-  return fail(p, status, hr2d_scene_message(p->scene));
+void PAGE(play_take)(play *p) {
+  drop_scene(p);
+  const glue_solve made = glue_take();
+  p->scene = made.scene;
+  p->hierarchy = made.hierarchy;
+  p->links = made.links;
+  p->solution = made.solution;
+  p->account = made.account;
+  p->message = p->account.reason;
 }
 
 /* By the light of the last round, if there is one. */

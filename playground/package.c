@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the package of npm asks: `hr2d solve` as a call, by the program's own files.  The
-   JavaScript side is npm/index.js.  One solve is kept at a time, until package_end(). */
+/* What the package of npm and the page ask: `hr2d solve` as a call, by the program's own files.
+   The JavaScript side is npm/index.js, and page/library.js.  One solve is kept at a time, until
+   package_end(). */
 #include <getopt.h>
 #include <malloc.h>
 #include <stdlib.h>
@@ -32,6 +33,14 @@ void PAGE(package_end)(void) {
   hr2d_scene_destroy(job.scene);
   options_release(&job.options);
   memset(&job, 0, sizeof job);
+}
+
+glue_solve glue_take(void) {
+  const glue_solve made = {job.scene, job.run.own_hierarchy, job.run.own_links,
+                           job.run.solution, job.run.account};
+  job.run = (run){0};
+  job.scene = NULL;
+  return made;
 }
 
 /* What is allocated, in bytes: tests look for leaks. */

@@ -9,9 +9,7 @@ EMCC = emcc
 CLANG = clang-14
 CC := $(CLANG) $(shell $(EMCC) --cflags)
 PAGE = $(SRCDIR)/playground/page
-# All but those with gas, which the page does not compute.
-SCENES = $(filter-out %/furnace-gas.geojson %/furnace-flue-gas.geojson, \
-	$(wildcard $(SRCDIR)/examples/scenes/*.geojson $(SRCDIR)/examples/scenes/*.vs2))
+SCENES = $(wildcard $(SRCDIR)/examples/scenes/*.geojson $(SRCDIR)/examples/scenes/*.vs2)
 OUT = playground/site
 SOURCES = playground/wasm/sources
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // An answer of the library: its elements as trees, and the links of one of them.
 
-import { foot } from "./scene.js";
+import { foot } from "./geojson.js";
 
 export class Answer {
   /** @param parts  what worker.js posts as a solution */
@@ -10,6 +10,7 @@ export class Answer {
     this.bands = bands;
     this.stride = 6 + bands;
     this.count = this.elements.length / this.stride;
+    this.patches = this.averages.length / (2 * bands);
     this.findParents();
   }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Mouse, touch, keys and controls.
 
-import { $, showLegend, showMessage } from "./panel.js";
+import { $, PROPERTIES, showLegend, showMessage } from "./panel.js";
 import { Scale } from "./palette.js";
 
 const GRAB = 10; // pixels around what is grabbed
@@ -54,9 +54,7 @@ class Pointer {
   }
 
   grab({ wall, grabbed }, at) {
-    const { scene } = this.page;
-    const ends = scene.endsToMove(wall, grabbed, $("how").value);
-    return { kind: "move", at, wall, grabbed, ends, start: scene.copy() };
+    return { kind: "move", at, wall, grabbed };
   }
 
   move(event) {
@@ -66,8 +64,16 @@ class Pointer {
     this[`${this.drag.kind}To`](at, event);
   }
 
+  /** Not before something moves: it may part a wall from its line. */
+  begin(drag) {
+    const { scene } = this.page;
+    drag.ends = scene.endsToMove(drag.wall, drag.grabbed, $("how").value);
+    drag.start = scene.copy();
+  }
+
   moveTo(at) {
     const { scene, view } = this.page;
+    if (!this.drag.start) this.begin(this.drag);
     const { ends, start, wall, grabbed } = this.drag;
     const by = [at[0] - this.drag.at[0], at[1] - this.drag.at[1]];
     if (grabbed === "wall") {
@@ -191,7 +197,7 @@ class Keys {
 }
 
 function fit(page) {
-  page.view.fit(page.scene.bounds(true));
+  page.fit();
   page.changed();
 }
 
@@ -214,20 +220,29 @@ function sliderAndNumber(page, id, set) {
 }
 
 function listenToWalls(page) {
-  const chosen = () => page.scene.walls[page.chosen];
-  sliderAndNumber(page, "emission", (v) => (chosen().emission[page.band] = v));
-  sliderAndNumber(page, "reflectance", (v) => (chosen().reflectance[page.band] = v));
-  sliderAndNumber(page, "background", (v) => (page.scene.background[page.band] = v));
+  const whole = () => $("whole").checked;
+  const set = (which) => (v) => {
+    const key = PROPERTIES[page.scene.walls[page.chosen].kind][which];
+    page.scene.setValue(page.chosen, key, page.band, v, whole());
+  };
+  const edit = (id, change) =>
+    $(id).addEventListener("change", (event) => {
+      change(page.scene, event.target);
+      page.edited();
+    });
+  sliderAndNumber(page, "emission", set(0));
+  sliderAndNumber(page, "reflectance", set(1));
+  sliderAndNumber(page, "transmittance", (v) =>
+    page.scene.setValue(page.chosen, "transmittance", page.band, v, whole()),
+  );
   $("wall").addEventListener("change", (event) =>
     page.choose(event.target.value === "" ? -1 : Number(event.target.value)),
   );
-  $("both").addEventListener("change", (event) => {
-    chosen().both = event.target.checked;
-    page.edited();
-  });
+  edit("kind", (scene, { value }) => scene.setKind(page.chosen, value, whole()));
+  edit("both", (scene, { checked }) => scene.setSides(page.chosen, checked, whole()));
+  textOf(page, "properties", (object) => page.scene.setProperties(page.chosen, object));
   $("flip").addEventListener("click", () => {
-    const w = chosen();
-    [w.a, w.b] = [w.b, w.a];
+    page.scene.turn(page.chosen);
     page.edited();
   });
   $("delete").addEventListener("click", () => page.deleteWall());
@@ -237,6 +252,31 @@ function listenToWalls(page) {
     page.addWall([x - half, y], [x + half, y]);
     $("plan").focus();
   });
+}
+
+/** A text of JSON, which is taken if it is an object. */
+function textOf(page, id, set) {
+  $(id).addEventListener("change", (event) => {
+    try {
+      const object = JSON.parse(event.target.value || "{}");
+      if (!object || typeof object !== "object" || Array.isArray(object))
+        throw new Error("it has to be an object, { … }");
+      set(object);
+    } catch (error) {
+      const [label] = event.target.labels;
+      return showMessage(`${label.firstChild.textContent.trim()}: ${error.message}`);
+    }
+    page.edited();
+  });
+}
+
+function listenToScene(page) {
+  sliderAndNumber(page, "background", (v) => page.scene.setBackground(page.band, v));
+  sliderAndNumber(page, "sun", (bearing) => page.scene.setSun(page.band, { bearing }));
+  sliderAndNumber(page, "irradiance", (irradiance) =>
+    page.scene.setSun(page.band, { irradiance }),
+  );
+  textOf(page, "members", (object) => (page.scene.members = object));
 }
 
 function listenToAnswers(page) {
@@ -285,28 +325,21 @@ function listenToPicture(page) {
   }).observe($("plan"));
 }
 
-async function openSafely(page, read, what) {
-  try {
-    await page.openFile(await read(), what);
-  } catch (error) {
-    showMessage(`${what}: ${error.message}`);
-  }
-}
-
 /** The examples of the menu; one of them is opened. */
 async function listenToFiles(page) {
   const menu = $("example");
   const openExample = () =>
-    openSafely(page, async () => (await fetch(`scenes/${menu.value}`)).text(), menu.value);
+    page.openFile(async () => (await fetch(`scenes/${menu.value}`)).text(), menu.value);
+  menu.add(new Option("choose one", ""));
   for (const file of await (await fetch("scenes/list.json")).json())
     menu.add(new Option(file.replace(/\.geojson$/, ""), file));
   menu.value = "partition.geojson";
-  menu.addEventListener("change", openExample);
+  menu.addEventListener("change", () => menu.value && openExample());
   $("load").addEventListener("click", () => $("file").click());
   $("file").addEventListener("change", async (event) => {
     const [file] = event.target.files;
     event.target.value = "";
-    if (file) await openSafely(page, () => file.text(), file.name);
+    if (file) await page.openFile(() => file.text(), file.name);
   });
   $("save").addEventListener("click", () => page.save());
   $("undo").addEventListener("click", () => page.undo());
@@ -318,6 +351,7 @@ export async function listen(page) {
   new Pointer(page);
   new Keys(page);
   listenToWalls(page);
+  listenToScene(page);
   listenToAnswers(page);
   listenToPicture(page);
   await listenToFiles(page);

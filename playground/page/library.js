@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The library as an object with methods: glue.c, called through WebAssembly.
+// The library as an object with methods: glue.c and package.c, called through WebAssembly.
 
 import { LibraryError, Module } from "./module.js";
 
 export { LibraryError };
 
 const MOST_STUDY_LINKS = 4e6;
+const MOST_IMAGES = 4000;
 
 export class Library extends Module {
   /** @param module  a compiled WebAssembly.Module */
@@ -30,7 +31,8 @@ export class Library extends Module {
     });
   }
 
-  /** The patches as {name, a, b, emission, reflectance, transmittance}, and the background. */
+  /** The patches as {name, a, b, emission, reflectance, transmittance}, the background, and the
+      first of their images between mirrors and in a period. */
   scene() {
     const { calls, play } = this;
     const count = calls.play_patches(play);
@@ -49,11 +51,28 @@ export class Library extends Module {
       };
     });
     const background = Array.from({ length: bands }, (_, b) => calls.play_background(play, b));
-    return { patches, bands, background };
+    return { patches, bands, background, images: this.images() };
   }
 
-  solveTo(error) {
-    this.check(this.calls.play_solve_to(this.play, error));
+  images() {
+    const count = Math.min(MOST_IMAGES, this.calls.play_images_count(this.play));
+    return this.numbers(4 * count, (at) => this.calls.play_images(this.play, at, count));
+  }
+
+  /** `hr2d solve` with some options; returns its document. */
+  solve(text, options) {
+    const words = ["hr2d", "solve", ...options, "scene"];
+    const { calls } = this;
+    this.lendText(text, (at, size) =>
+      this.lendText(words.join("\0"), (line) => {
+        const status = calls.package_solve(at, size, line, words.length);
+        if (status) throw new LibraryError(status, this.text(calls.package_message()));
+      }),
+    );
+    calls.play_take(this.play);
+    const document = JSON.parse(this.text(calls.package_json()));
+    calls.package_end();
+    return document;
   }
 
   /** The paper's algorithm; 0 is the default of each limit. */

@@ -6,6 +6,7 @@ const decoder = new TextDecoder();
 const encoder = new TextEncoder();
 const STOPPED = 1; // hr2d_status
 const OUT_OF_MEMORY = 2;
+const UNSUPPORTED = 9;
 const MOST_BYTES = 2 ** 31 - 1; // an address and a size have 32 bits
 
 /** A call that failed, with the sentence of the library. */
@@ -14,6 +15,7 @@ export class LibraryError extends Error {
     super(message);
     this.status = status;
     this.stopped = status === STOPPED;
+    this.unsupported = status === UNSUPPORTED;
   }
 }
 

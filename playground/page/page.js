@@ -8,18 +8,20 @@ import { listen } from "./input.js";
 import { Scale } from "./palette.js";
 import {
   $,
-  namesOf,
   short,
   showLegend,
   showLists,
   showMessage,
+  showNoAnswer,
   showNumbers,
   showProgress,
+  showScene,
   showStatus,
   showStudy,
   showTiles,
   showValues,
   showWall,
+  showWarnings,
 } from "./panel.js";
 import { Scene } from "./scene.js";
 import { View } from "./view.js";
@@ -29,52 +31,103 @@ const SLIDE_BUDGET = 300;
 const CELL = 4; // pixels for a node of an exact field
 const MOST_LINKS = 3e6;
 const MOST_STEPS = 200; // of undo
+const IMAGES = 0.15; // of the size of a scene, on each side of a cell
+const LETTERS = {
+  emission: "E",
+  reflectance: "ρ",
+  transmittance: "τ",
+  temperature: "T",
+  emissivity: "ε",
+  flux: "q",
+};
 
 export class Page {
   constructor(engine) {
     this.engine = engine;
     this.view = new View($("plan"));
     this.scene = new Scene();
+    this.kept = this.scene.copy();
     this.past = [];
     this.future = [];
     this.chosen = -1;
     this.band = 0;
     this.path = [];
+    this.files = 0;
+    this.images = new Float64Array(0);
     this.study = { rows: [], slope: 0 };
     this.scale = new Scale(1, "root");
   }
 
   // The scene.
 
-  async openFile(text, what) {
-    const patches = await this.engine.ask({ task: "open", text });
-    this.scene = Scene.fromPatches(patches);
-    this.past = [];
-    this.future = [];
-    this.begin();
-    this.view.fit(this.scene.bounds(true));
-    const { cuts } = patches;
-    showMessage(
-      cuts ? `${what}: walls were cut where they cross, at ${cuts} places.` : "",
-      "note",
-    );
+  /** Opens the text of a file as a step of history; the state says so until it is read. */
+  async openFile(read, what) {
+    const { state } = $("status").dataset;
+    const said = $("status").textContent;
+    showStatus("busy", `Opening ${what} …`);
+    try {
+      const text = await read();
+      const opened = await this.engine.ask({ task: "open", text });
+      const scene = Scene.fromFile(text, opened);
+      scene.title = what;
+      this.begin(scene, opened.images);
+      const { cuts } = opened;
+      showMessage(
+        cuts ? `${what}: walls were cut where they cross, at ${cuts} places.` : "",
+        "note",
+      );
+    } catch (error) {
+      showMessage(`${what}: ${error.message}`);
+      this.showLists();
+      return showStatus(state, said);
+    }
     this.changed();
   }
 
+  /** Takes another scene in the place of the one that is shown, as a step of history. */
+  begin(scene, images) {
+    this.record();
+    if (this.scene.walls.length) this.keep();
+    scene.file = ++this.files;
+    this.scene = scene;
+    this.kept = scene.copy();
+    this.forget();
+    this.images = images;
+    this.fit();
+    this.showLists();
+  }
+
   /** Forgets what belongs to the last scene. */
-  begin() {
+  forget() {
     performance.clearMarks("sketch");
     this.chosen = -1;
     this.band = Math.min(this.band, this.scene.bands - 1);
+    this.path = [];
+    this.dropAnswer();
+    this.study = { rows: [], slope: 0 };
+  }
+
+  /** Shows no answer any more: there is none, or it is one to another question. */
+  dropAnswer() {
     this.answer = null;
     this.field = null;
+    this.images = new Float64Array(0);
     this.view.image = null;
     this.path = [];
-    this.study = { rows: [], slope: 0 };
-    this.top = Math.max(1, ...this.scene.walls.flatMap((w) => w.emission).map((e) => 2 * e));
-    this.top = Math.max(this.top, ...this.scene.background.map((e) => 2 * e));
-    this.kept = this.scene.copy();
+    showNoAnswer();
+  }
+
+  /** All walls that matter, and what stands around a cell in a period or between mirrors. */
+  fit() {
+    const { low, high } = this.scene.bounds(true);
+    const more = this.images.length ? IMAGES * this.scene.size() : 0;
+    this.view.fit({ low: low.map((v) => v - more), high: high.map((v) => v + more) });
+  }
+
+  showLists() {
+    $("example").value = this.scene.title;
     showLists(this.scene, this.band);
+    showScene(this.scene);
   }
 
   /** Takes a step of history back or forth. */
@@ -82,10 +135,16 @@ export class Page {
     this.record();
     if (!from.length) return;
     to.push(this.scene.copy());
+    const { file } = this.scene;
     this.scene = from.pop();
     this.kept = this.scene.copy();
     this.chosen = Math.min(this.chosen, this.scene.walls.length - 1);
-    showLists(this.scene, this.band);
+    showMessage("");
+    if (this.scene.file !== file) {
+      this.forget();
+      this.fit();
+    }
+    this.showLists();
     this.changed();
   }
 
@@ -100,10 +159,14 @@ export class Page {
   /** Keeps a step of history if anything has changed since the last one. */
   record() {
     if (this.scene.toGeoJSON() === this.kept.toGeoJSON()) return;
+    this.keep();
+    this.kept = this.scene.copy();
+  }
+
+  keep() {
     this.past.push(this.kept);
     if (this.past.length > MOST_STEPS) this.past.shift();
     this.future.length = 0;
-    this.kept = this.scene.copy();
   }
 
   /** After an edit that is complete. */
@@ -111,7 +174,7 @@ export class Page {
     this.record();
     showMessage("");
     this.study = { rows: [], slope: 0 };
-    showLists(this.scene, this.band);
+    this.showLists();
     this.changed();
   }
 
@@ -127,12 +190,15 @@ export class Page {
     const w = this.scene.walls[wall];
     const point = (p) => `(${short(p[0])}, ${short(p[1])})`;
     const patch = this.scene.patchOf(wall);
-    const known = this.answer && patch < this.answer.averages.length / (2 * this.scene.bands);
+    const known = this.answer && patch < this.answer.patches;
     const light = known ? `, B = ${short(this.answer.average(patch, this.band))}` : "";
-    return (
-      `${w.name}, from ${point(w.a)} to ${point(w.b)}: E = ${short(w.emission[this.band])}, ` +
-      `ρ = ${short(w.reflectance[this.band])}${light}`
-    );
+    const said = this.answer?.document?.patches[patch];
+    const heat = this.exact && said?.temperature ? `, T = ${short(said.temperature)} K` : "";
+    const about = Object.entries(w.properties)
+      .filter(([key, v]) => LETTERS[key] && v !== null)
+      .map(([key, v]) => `, ${LETTERS[key]} = ${Array.isArray(v) ? JSON.stringify(v) : short(v)}`);
+    const answer = w.kind === "mirror" ? ", a mirror" : light + heat;
+    return `${w.name}, from ${point(w.a)} to ${point(w.b)}${about.join("")}${answer}`;
   }
 
   addWall(a, b) {
@@ -142,7 +208,7 @@ export class Page {
 
   deleteWall() {
     if (this.chosen < 0) return;
-    this.scene.walls.splice(this.chosen, 1);
+    this.scene.remove(this.chosen);
     this.chosen = Math.min(this.chosen, this.scene.walls.length - 1);
     this.path = [];
     this.edited();
@@ -190,17 +256,17 @@ export class Page {
   }
 
   job(message) {
-    const scene = this.scene.copy();
+    const { bands, file } = this.scene;
     this.engine.sketch(
-      { ...message, text: scene.toGeoJSON(), area: this.view.area() },
-      (data) => this.take(data, scene, false),
+      { ...message, text: this.scene.toGeoJSON(), area: this.view.area() },
+      (data) => this.scene.file === file && this.take(data, bands, false),
     );
   }
 
   /** When something has changed and rests: the exact answer. */
   changed() {
     this.engine.settle();
-    const scene = this.scene.copy();
+    const { scene } = this;
     if (!scene.walls.length) return this.showNothing();
     showStatus("busy", "Solving …");
     const { width, height } = this.view;
@@ -212,7 +278,7 @@ export class Page {
         area: this.view.area(),
         cells: (width * height) / CELL ** 2,
       },
-      (data) => this.take(data, scene, true),
+      (data) => this.take(data, data.scene?.bands ?? scene.bands, true),
     );
     this.show();
   }
@@ -225,20 +291,18 @@ export class Page {
 
   showNothing() {
     this.engine.stop();
-    this.answer = null;
-    this.field = null;
-    this.view.image = null;
+    this.dropAnswer();
     showStatus("exact", "No walls: draw some, or choose an example");
     this.show();
   }
 
-  /** A part of an answer for a scene. */
-  take(data, scene, exact) {
+  /** A part of an answer. */
+  take(data, bands, exact) {
     const { part } = data;
     if (part === "failed") return this.takeFailure(data, exact);
     if (part === "progress" && exact) showProgress(data);
-    if (data.elements) this.takeSolution(data, scene, exact);
-    if (data.field) this.takeField(data.field, scene, exact);
+    if (data.elements) this.takeSolution(data, bands, exact);
+    if (data.field) this.takeField(data.field, bands, exact);
     if (part === "account")
       Object.assign(this.answer, { account: data.account, measured: true });
     if (data.rows) this.study = data;
@@ -246,26 +310,40 @@ export class Page {
     this.show();
   }
 
-  takeFailure({ message, stopped }, exact) {
-    if (stopped && !exact) return showStatus("moving", "Let go to solve: this takes longer");
+  takeFailure({ message, stopped, unsupported }, exact) {
+    if ((stopped || unsupported) && !exact)
+      return showStatus("moving", "Let go to solve: this takes longer");
     showMessage(message);
+    this.dropAnswer();
     showStatus("error", "No answer for these walls");
+    this.show();
   }
 
-  takeSolution(data, scene, exact) {
-    this.answer = new Answer(data, scene.bands);
+  takeSolution(data, bands, exact) {
+    this.answer = new Answer(data, bands);
     this.path = [];
-    this.solved = scene;
     this.exact = exact;
-    showTiles(this.answer, namesOf(scene).length);
+    this.images = data.images ?? data.scene?.images ?? this.images;
+    if (exact) this.takeDocument(data);
+    showTiles(this.answer, this.answer.patches);
     if ($("message").dataset.kind === "failure") showMessage("");
     if (!exact) performance.mark("sketch");
-    if (exact) showValues(this.answer, namesOf(scene));
+  }
+
+  /** What the program says, and how the library has read the scene. */
+  takeDocument({ document, scene }) {
+    this.scene.learn(scene);
+    this.kept.learn(scene);
+    this.names = scene.patches.map((p) => p.name);
+    this.band = Math.min(this.band, scene.bands - 1);
+    this.showLists();
+    showValues(document);
+    showWarnings(document.warnings);
   }
 
   /** Colours keep their meaning while something moves. */
-  takeField(field, scene, exact) {
-    this.field = { ...field, bands: scene.bands };
+  takeField(field, bands, exact) {
+    this.field = { ...field, bands };
     if (exact || !this.scaled) this.rescale();
     this.colour();
   }
@@ -310,7 +388,9 @@ export class Page {
       view.paintField();
       view.wipeBacks(scene);
     }
+    view.paintImages(this.images);
     view.paintWalls(scene);
+    view.paintSun(scene.sun(this.band));
     if (answer) view.paintLeaves(answer, this.scale, this.band, $("show-elements").checked);
     const links = answer && this.path.length ? answer.linksOf(this.path) : [];
     if (answer && $("show-links").checked && this.path.length)
@@ -320,7 +400,7 @@ export class Page {
   }
 
   showPanel(links) {
-    showWall(this.scene, this.chosen, this.band, this.top);
+    showWall(this.scene, this.chosen, this.band);
     $("undo").disabled = !this.past.length;
     $("redo").disabled = !this.future.length;
     $("epsilon-value").textContent = short(this.epsilon());
@@ -335,7 +415,7 @@ export class Page {
 
   describeElement(links) {
     const { answer, path } = this;
-    const name = namesOf(this.solved)[answer.patch(path[0])];
+    const name = this.names[answer.patch(path[0])];
     const B = short(answer.value(path[0], this.band));
     return `${name}, element on level ${path.length - 1}: B = ${B}, ${links} links`;
   }
@@ -375,8 +455,9 @@ export class Page {
 
   /** Goes from element to element of the chosen wall. */
   stepElement(by) {
-    if (!this.answer || !this.solved.walls[this.chosen]) return;
-    const leaves = this.answer.leavesOf(this.solved.patchOf(this.chosen));
+    const patch = this.scene.patchOf(this.chosen);
+    if (!(this.answer && this.chosen >= 0 && patch < this.answer.patches)) return;
+    const leaves = this.answer.leavesOf(patch);
     const now = leaves.indexOf(this.path[0]);
     const next = now < 0 ? 0 : (now + by + leaves.length) % leaves.length;
     this.path = this.answer.path(leaves[next]);

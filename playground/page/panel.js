@@ -67,34 +67,55 @@ export function showNumbers(answer, exact) {
     rows.push(
       ["error of averages", say(`about ${tiny(a.average.estimate)}`)],
       ["at most", say(tiny(a.average.bound))],
-      ["error at points", say(`about ${tiny(a.sup.estimate)}`)],
     );
+    if (!answer.measured || Number.isFinite(a.sup.estimate))
+      rows.push(["error at points", say(`about ${tiny(a.sup.estimate)}`)]);
     if (answer.seconds) rows.push(["time", `${short(answer.seconds)} s`]);
   }
   showList($("numbers"), rows);
 }
 
-/** Every average with all its digits. */
-export function showValues(answer, names) {
-  const rows = [];
-  for (let patch = 0; patch < names.length; patch++)
-    for (let band = 0; band < answer.bands; band++) {
-      const row = document.createElement("tr");
-      const cells = [
-        names[patch],
-        band,
-        answer.average(patch, band),
-        answer.average(patch, band, 1),
-      ];
-      for (const text of cells) row.insertCell().textContent = String(text);
-      rows.push(row);
-    }
-  $("values").tBodies[0].replaceChildren(...rows);
+/** What stands in the place of an answer that there is not. */
+export function showNoAnswer() {
+  $("numbers").replaceChildren();
+  $("values").tBodies[0].replaceChildren();
+  showWarnings([]);
 }
 
-/** The names of all patches, in their order. */
-export function namesOf(scene) {
-  return scene.walls.flatMap((w) => (w.both ? [w.name, `${w.name} (back)`] : [w.name]));
+const cell = (value) => (value === null || value === undefined ? "" : String(value));
+
+/** Every average with all its digits, from the document of the program; sunlight and heat where the
+    scene has some. */
+export function showValues({ patches }) {
+  const table = $("values");
+  for (const [name, key] of [
+    ["of-sun", "sunlight"],
+    ["of-heat", "heat"],
+  ])
+    table.classList.toggle(name, patches.some((p) => p[key] !== undefined));
+  const rows = patches.flatMap((p) =>
+    p.average.map((B, band) => {
+      const row = document.createElement("tr");
+      const heat = band ? [] : [p.temperature, p.heat]; // of all bands together
+      const cells = [p.name, band, B, p.irradiance[band], p.sunlight?.[band], ...heat];
+      for (const value of cells) row.insertCell().textContent = cell(value);
+      return row;
+    }),
+  );
+  table.tBodies[0].replaceChildren(...rows);
+}
+
+/** What the library finds odd in a scene. */
+export function showWarnings(warnings) {
+  $("warnings").hidden = !warnings.length;
+  $("warnings-count").textContent = String(warnings.length);
+  $("warnings-list").replaceChildren(
+    ...warnings.map(({ text }) => {
+      const item = document.createElement("li");
+      item.textContent = text;
+      return item;
+    }),
+  );
 }
 
 export function showLegend(scale) {
@@ -143,29 +164,75 @@ export function showTiles(answer, patches) {
     `see each other${clustered}.`;
 }
 
+/** A slider and a number; switched off without a value, or with one that is no number. */
+function showPair(id, value) {
+  const number = typeof value === "number";
+  const name = $(id).closest(".row").firstElementChild.textContent;
+  $(`${id}-number`).setAttribute("aria-label", `${name}, as a number`);
+  for (const control of [$(id), $(`${id}-number`)]) {
+    control.disabled = !number;
+    if (document.activeElement !== control) control.value = number ? value : "";
+  }
+  const row = $(id).closest(".row");
+  row.title = number || value === undefined ? "" : "Not a number: see Properties";
+}
+
+/** So far goes a slider whose value is free. */
+function stretch(id, values, least) {
+  if (document.activeElement === $(id)) return;
+  const most = Math.max(0, ...values.filter(Number.isFinite).map(Math.abs));
+  $(id).max = most > 0 ? 2 * most : least;
+}
+
+/** The first and second property of each kind of wall, and what the first one is called. */
+export const PROPERTIES = {
+  light: ["emission", "reflectance", "Emission"],
+  temperature: ["temperature", "emissivity", "Temperature, K"],
+  flux: ["flux", "emissivity", "Net flux"],
+  shield: [null, "emissivity", ""],
+  mirror: [null, null, ""],
+};
+
 /** Fills the controls of the chosen wall, or switches them off. */
-export function showWall(scene, chosen, band, top) {
+export function showWall(scene, chosen, band) {
   const wall = scene.walls[chosen];
-  const pair = (id, value, most) => {
-    if (most) $(id).max = Math.max(most, value);
-    if (document.activeElement !== $(id)) $(id).value = value;
-    if (document.activeElement !== $(`${id}-number`)) $(`${id}-number`).value = value;
-  };
-  for (const id of [
-    "emission",
-    "emission-number",
-    "reflectance",
-    "reflectance-number",
-    "both",
-    "flip",
-    "delete",
-  ])
-    $(id).disabled = !wall;
+  const [first, second, label] = PROPERTIES[wall?.kind ?? "light"];
+  for (const id of ["both", "flip", "delete", "kind", "properties"]) $(id).disabled = !wall;
   $("wall").value = wall ? String(chosen) : "";
-  pair("emission", wall ? wall.emission[band] : 0, top);
-  pair("reflectance", wall ? wall.reflectance[band] : 0);
-  pair("background", scene.background[band], top);
+  $("kind").value = wall ? wall.kind : "";
+  $("first-label").textContent = label;
+  $("second-label").textContent = second === "emissivity" ? "Emissivity" : "Reflectance";
+  $("emission").closest(".row").hidden = !first;
+  $("reflectance").closest(".row").hidden = !second;
+  $("transmittance").closest(".row").hidden = !wall?.both;
+  $("whole").closest(".choice").hidden = !wall || wall.alone;
+  stretch("emission", scene.walls.map((_, k) => scene.value(k, first, band)), 1);
+  $("emission").min = first === "flux" ? -$("emission").max : 0;
+  const missing = wall && second === "emissivity" ? 1 : 0;
+  showPair("emission", wall && (scene.value(chosen, first, band) ?? 0));
+  showPair("reflectance", wall && (scene.value(chosen, second, band) ?? missing));
+  showPair("transmittance", wall && (scene.value(chosen, "transmittance", band) ?? 0));
   $("both").checked = Boolean(wall?.both);
+  showText("properties", wall ? JSON.stringify(wall.properties, null, 1) : "");
+}
+
+function showText(id, text) {
+  if (document.activeElement !== $(id)) $(id).value = text;
+}
+
+/** The controls of what holds for the whole scene. */
+export function showScene(scene, band = 0) {
+  $("background-label").textContent =
+    scene.surroundings === "background" ? "Surroundings" : "Surroundings, K";
+  const emissions = scene.walls.map((_, k) => scene.value(k, "emission", band));
+  const background = scene.background(band);
+  stretch("background", [background, ...emissions], 1);
+  showPair("background", background);
+  const sun = scene.sun(band);
+  showPair("sun", sun?.bearing ?? 0);
+  stretch("irradiance", [sun?.irradiance], 1);
+  showPair("irradiance", sun?.irradiance ?? 0);
+  showText("members", JSON.stringify(scene.members, null, 1));
 }
 
 function option(value, text) {
@@ -182,7 +249,7 @@ export function showLists(scene, band) {
     ...scene.walls.map((w, k) => option(k, w.name)),
   );
   $("band").replaceChildren(
-    ...scene.background.map((_, k) => option(k, `${k + 1} of ${scene.bands}`)),
+    ...Array.from({ length: scene.bands }, (_, k) => option(k, `${k + 1} of ${scene.bands}`)),
   );
   $("band").value = String(band);
   document.querySelector(".of-bands").hidden = scene.bands === 1;

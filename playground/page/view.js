@@ -6,6 +6,9 @@ const OUTSIDE = 2; // hr2d_place
 const LEAST_TICKED = 3; // pixels; ends of shorter elements would be a blot
 const DARK = "#10141a";
 const CHOSEN = "#ff3d9a";
+const IMAGE = "rgb(16 20 26 / 30%)";
+const SUNLIGHT = "#ffd23f";
+const SUN = 11; // pixels, its radius
 
 /** Nodes without light take the mean colour of neighbours that have some, so that the smooth image
     does not fade before a wall. */
@@ -135,7 +138,8 @@ export class View {
     if (!this.image?.coarse) return;
     const { low, high, columns } = this.image;
     const pixel = ((high[0] - low[0]) / (columns - 1)) * this.scale;
-    for (const wall of scene.walls) if (!wall.both) this.wipeBack(wall, pixel);
+    for (const wall of scene.walls)
+      if (!wall.both && wall.kind !== "mirror") this.wipeBack(wall, pixel);
   }
 
   wipeBack(wall, pixel) {
@@ -178,7 +182,54 @@ export class View {
 
   paintWalls(scene) {
     this.context.lineCap = "round";
-    for (const w of scene.walls) this.line(this.toScreen(w.a), this.toScreen(w.b), 4, DARK);
+    for (const w of scene.walls) {
+      const mirror = w.kind === "mirror";
+      this.context.setLineDash(mirror ? [10, 4, 2, 4] : []);
+      this.line(this.toScreen(w.a), this.toScreen(w.b), mirror ? 2 : 4, DARK);
+    }
+    this.context.setLineDash([]);
+  }
+
+  /** What stands around a cell between mirrors or in a period, faintly. */
+  paintImages(images) {
+    this.context.lineCap = "round";
+    for (let k = 0; k < images.length; k += 4)
+      this.line(
+        this.toScreen([images[k], images[k + 1]]),
+        this.toScreen([images[k + 2], images[k + 3]]),
+        2.5,
+        IMAGE,
+      );
+  }
+
+  /** Where the sun stands on the screen: it is as far away as the edge. */
+  sunAt(bearing) {
+    const turn = (bearing * Math.PI) / 180;
+    const far = Math.min(this.width, this.height) / 2 - SUN - 6;
+    return [this.width / 2 + far * Math.sin(turn), this.height / 2 - far * Math.cos(turn)];
+  }
+
+  /** A disc, and its light as arrows. */
+  paintSun(sun) {
+    if (!(sun?.irradiance > 0)) return;
+    const c = this.context;
+    const [x, y] = this.sunAt(sun.bearing);
+    const turn = (sun.bearing * Math.PI) / 180;
+    const [ux, uy] = [-Math.sin(turn), Math.cos(turn)]; // the way of its light
+    c.lineCap = "round";
+    for (const side of [-8, 0, 8]) {
+      const from = [x - side * uy + (SUN + 5) * ux, y + side * ux + (SUN + 5) * uy];
+      const to = [from[0] + 22 * ux, from[1] + 22 * uy];
+      this.line(from, to, 4, DARK);
+      this.line(from, to, 2, SUNLIGHT);
+    }
+    c.beginPath();
+    c.arc(x, y, SUN, 0, 2 * Math.PI);
+    c.fillStyle = SUNLIGHT;
+    c.fill();
+    c.lineWidth = 2;
+    c.strokeStyle = DARK;
+    c.stroke();
   }
 
   /** The leaves in the colours of their radiosity, along their fronts. */

@@ -89,6 +89,13 @@ function solveWithin(id, budget) {
   }
 }
 
+/** What the program would be asked.  The error of the paper's algorithm comes after its picture. */
+function optionsOf({ error, epsilon, oracle, mostLinks }) {
+  // A value at a point is what makes the program measure the error at points.
+  if (!epsilon) return [`--target-error=${error}`, "--at=0:0.5"];
+  return [`--eps=${epsilon}`, `--oracle=${oracle}`, `--max-links=${mostLinks}`, "--no-error"];
+}
+
 const tasks = {
   /** The walls of a file.  Where patches cross they are cut, and the answer says so. */
   open({ id, text }) {
@@ -110,7 +117,7 @@ const tasks = {
     library.open(text);
     const epsilon = solveWithin(id, budget);
     const middle = performance.now();
-    const answer = { ...solution(false), epsilon };
+    const answer = { ...solution(false), epsilon, images: library.images() };
     watch(id);
     answer.field = field(area, pace.cells, 0.05);
     const left = budget - (middle - start);
@@ -133,12 +140,12 @@ const tasks = {
     const start = performance.now();
     const post = (part, value) => postMessage({ id, part, ...value });
     watch(id);
-    library.open(text);
-    if (method.epsilon) library.solveEpsilon(method.oracle, method.epsilon, method);
-    else library.solveTo(method.error);
+    const document = library.solve(text, optionsOf(method));
     const measured = !method.epsilon;
     post("solution", {
       ...solution(true),
+      document,
+      scene: library.scene(),
       measured,
       seconds: (performance.now() - start) / 1000,
     });
@@ -155,10 +162,10 @@ const tasks = {
 };
 
 function fail(id, error) {
-  const { message, stopped } = error;
+  const { message, stopped, unsupported } = error;
   // After any other error nobody knows what is in the memory of the library.
   const broken = !(error instanceof LibraryError);
-  postMessage({ id, part: "failed", message, stopped: Boolean(stopped), broken });
+  postMessage({ id, part: "failed", message, stopped, unsupported, broken });
 }
 
 onmessage = async ({ data }) => {
