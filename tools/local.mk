@@ -47,6 +47,7 @@ SOLVE_SOURCES = \
 	tools/draw/contour-labels.c \
 	tools/draw/contours.c \
 	tools/draw/draw.c tools/draw/draw.h \
+	tools/draw/extent.c \
 	tools/draw/fill.c \
 	tools/draw/images.c \
 	tools/draw/joints.c \

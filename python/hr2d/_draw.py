@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import html
 from importlib import import_module
-from typing import Any, List, Tuple
+from typing import Any, List, NamedTuple, Optional, Sequence, Tuple
 
 import numpy as np
 
@@ -14,30 +14,118 @@ ROWS = 12
 """A table in a notebook has at most so many patches."""
 
 
-def _strokes(scene: Any, points: int, shift: float) -> Tuple[Array, Array]:
-    """Each patch as points − 1 pieces, moved to the side of its front: (n, pieces, 2, 2)."""
-    ends = scene.segments
-    along = ends[:, 1] - ends[:, 0]
-    normal = np.stack([-along[:, 1], along[:, 0]], axis=1) / scene.lengths[:, None]
+FAR_LONGER = 8
+"""So many times longer than others is a patch that may go on beyond a picture."""
+MORE, AROUND = .1, .06
+"""Parts of the extent: of what goes on or stands around a cell, and around all."""
+SHIFT = 2.0
+"""So far is the line of B from its wall, to the side of its front; points, or pixels of an SVG."""
+
+
+class View(NamedTuple):
+    """A part of the plane."""
+
+    low: Array
+    high: Array
+    part: bool
+    """Not all patches are in it."""
+    going_on: int
+    """So many patches go on beyond it."""
+
+
+def _strokes(ends: Array, points: int) -> Tuple[Array, Array]:
+    """Each patch as points − 1 pieces, (n, pieces, 2, 2), and the middles of these."""
     t = np.linspace(0, 1, points)
-    line = ends[:, None, 0] + t[None, :, None] * along[:, None] + shift * normal[:, None]
+    line = ends[:, None, 0] + t[None, :, None] * (ends[:, 1] - ends[:, 0])[:, None]
     return np.stack([line[:, :-1], line[:, 1:]], axis=2), (t[1:] + t[:-1]) / 2
+
+
+def _fronts(scene: Any) -> Array:
+    """The unit normals of all patches, (n, 2)."""
+    along = scene.segments[:, 1] - scene.segments[:, 0]
+    normals: Array = np.stack([-along[:, 1], along[:, 0]], axis=1) / scene.lengths[:, None]
+    return normals
+
+
+def _part(ends: Array, low: Array, high: Array) -> Array:
+    """The ends of the parts of patches that are within a box, (m, 2), after Liang and Barsky."""
+    along = ends[:, 1] - ends[:, 0]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        cuts = np.stack([low - ends[:, 0], high - ends[:, 0]]) / along
+    cuts = np.where(np.isnan(cuts), 0, cuts)  # on the side of the box, along it
+    s = np.maximum(0, cuts.min(axis=0).max(axis=1))
+    t = np.minimum(1, cuts.max(axis=0).min(axis=1))
+    found = s <= t
+    return np.concatenate([ends[found, 0] + u[found, None] * along[found] for u in (s, t)])
+
+
+def _passing(ends: Array, low: Array, high: Array) -> Array:
+    """Of long patches, the points where they pass a box: beside it along them, and no farther from
+    it across them than it is large."""
+    extent, points = max(high - low), []
+    for a, b in ends:
+        along = int(np.argmax(np.abs(b - a)))
+        across = 1 - along
+        ends_of_box = np.array([low[along] - MORE * extent, high[along] + MORE * extent])
+        s, t = np.sort((ends_of_box - a[along]) / (b - a)[along])
+        if s > 1 or t < 0:
+            continue
+        for point in (a + u * (b - a) for u in (max(0, s), min(1, t))):
+            if low[across] - extent <= point[across] <= high[across] + extent:
+                points.append(point)
+    return np.array(points).reshape(-1, 2)
+
+
+def _around(points: Array) -> Tuple[Array, Array]:
+    return points.min(axis=0), points.max(axis=0)
+
+
+def _what_matters(scene: Any) -> View:
+    """The box of all patches but those far longer than the extent of all that are far shorter."""
+    ends, lengths = scene.segments, scene.lengths
+    order = np.argsort(lengths)
+    lows = np.minimum.accumulate(ends[order].min(axis=1))
+    highs = np.maximum.accumulate(ends[order].max(axis=1))
+    shorter = np.searchsorted(lengths[order], lengths / FAR_LONGER)
+    extents = (highs - lows).max(axis=1)[shorter - 1]
+    far = (shorter > 0) & (lengths >= FAR_LONGER * extents)
+    low, high = _around(ends[~far].reshape(-1, 2))
+    if not far.any():
+        return View(low, high, False, 0)
+    edge = AROUND * max(high - low)
+    low, high = _around(np.concatenate([[low, high], _passing(ends[far], low, high)]))
+    return View(low - edge, high + edge, True, int(far.sum()))
+
+
+def _images(scene: Any) -> List[Array]:
+    """What stands around a cell; known once the scene has been committed."""
+    count = scene.images if scene._committed else 1
+    return [scene.image(k) for k in range(1, count)]
+
+
+def _view(scene: Any, box: Optional[Sequence[float]]) -> View:
+    if box is not None:
+        corners = np.array(box, dtype=float).reshape(2, 2)
+        return View(*_around(corners), True, 0)
+    images = _images(scene)
+    if not images:
+        return _what_matters(scene)
+    low, high = _around(scene.segments.reshape(-1, 2))
+    more = MORE * max(high - low)
+    near = [_around(np.clip(ends.reshape(-1, 2), low - more, high + more)) for ends in images]
+    edge = AROUND * max(high - low)
+    return View(np.min([low, *(a for a, _ in near)], axis=0) - edge,
+                np.max([high, *(b for _, b in near)], axis=0) + edge, True, 0)
 
 
 def _colours(scene: Any, solution: Any, t: Array, band: int) -> Array:
     return np.stack([solution.at(k, t, gather=False).B[:, band] for k in range(len(scene))])
 
 
-def _extent(scene: Any) -> float:
-    ends = scene.segments.reshape(-1, 2)
-    return float(np.ptp(ends, axis=0).max()) if len(ends) else 1.0
-
-
-def _fill(ax: Any, scene: Any, solution: Any, band: int, filled: int, like: Any) -> None:
+def _fill(ax: Any, view: View, solution: Any, band: int, filled: int, like: Any) -> None:
     """The mean radiosity between the walls, in the colours of the walls."""
-    ends = scene.segments.reshape(-1, 2)
-    low, high = ends.min(axis=0), ends.max(axis=0)
-    flat = np.where(high == low, 0.1 * _extent(scene), 0)
+    low, high = view.low, view.high
+    flat = np.where(high == low, 0.1 * (max(high - low) or 1), 0)
     low, high = low - flat, high + flat
     steps = np.maximum(2, np.ceil(filled * (high - low) / max(high - low))).astype(int)
     x, y = (a + (b - a) * (np.arange(n) + .5) / n for a, b, n in zip(low, high, steps))
@@ -48,32 +136,71 @@ def _fill(ax: Any, scene: Any, solution: Any, band: int, filled: int, like: Any)
               cmap=like.get_cmap(), norm=like.norm, zorder=0)
 
 
-def plot(scene: Any, solution: Any, ax: Any, band: int, cmap: Any, points: int, labels: bool,
-         colorbar: bool, filled: int) -> Any:
-    plt: Any = import_module("matplotlib.pyplot")
+def _walls(ax: Any, scene: Any, points: int) -> Tuple[Any, Array]:
+    """The patches as lines, shifted in points of the page to the sides of their fronts."""
     collections: Any = import_module("matplotlib.collections")
+    pieces, t = _strokes(scene.segments, points)
+    walls = collections.LineCollection(pieces.reshape(-1, 2, 2), linewidths=3,
+                                       capstyle="projecting")
+    walls.set_offset_transform(ax.figure.dpi_scale_trans)
+    walls.set_offsets(np.repeat(SHIFT / 72 * _fronts(scene), points - 1, axis=0))
+    ax.add_collection(walls, autolim=False)
+    return walls, t
+
+
+def _surroundings(ax: Any, scene: Any) -> None:
+    """What stands around a cell, faintly; mirrors are broken lines."""
+    collections: Any = import_module("matplotlib.collections")
+    pale = _images(scene)
+    if pale:
+        ax.add_collection(collections.LineCollection(
+            np.concatenate(pale), linewidths=1.5, colors="0.6", zorder=1), autolim=False)
+    for a, b in scene.mirrors:
+        ax.axline(a, b, color="0.4", linewidth=1, linestyle="-.")
+
+
+def _frame(ax: Any, scene: Any, view: View) -> None:
+    ax.set_aspect("equal")
+    if view.part:
+        ax.set(xlim=(view.low[0], view.high[0]), ylim=(view.low[1], view.high[1]))
+    else:
+        ax.update_datalim(scene.segments.reshape(-1, 2))
+        ax.use_sticky_edges = False
+        ax.autoscale_view()
+    if view.going_on:
+        low, high = _around(scene.segments.reshape(-1, 2))
+        goes = "patch goes" if view.going_on == 1 else "patches go"
+        ax.annotate(f"{view.going_on} {goes} on beyond the picture: the scene is from "
+                    f"({low[0]:g}, {low[1]:g}) to ({high[0]:g}, {high[1]:g})",
+                    (0, 1), (0, 4), xycoords="axes fraction", textcoords="offset points",
+                    fontsize="small")
+
+
+def plot(scene: Any, solution: Any, ax: Any, band: int, cmap: Any, points: int, labels: bool,
+         colorbar: bool, filled: int, box: Optional[Sequence[float]]) -> Any:
+    plt: Any = import_module("matplotlib.pyplot")
 
     if solution is not None and solution.scene is not scene:
         raise ValueError("this is a solution of another scene")
     ax = plt.gca() if ax is None else ax
-    pieces, t = _strokes(scene, points if solution is not None else 2, 0.006 * _extent(scene))
-    walls = collections.LineCollection(pieces.reshape(-1, 2, 2), linewidths=3, capstyle="projecting")
+    view = _view(scene, box)
+    walls, t = _walls(ax, scene, points if solution is not None else 2)
     if solution is None:
         walls.set_color("0.35")
     else:
         walls.set_array(_colours(scene, solution, t, band).ravel())
         walls.set_cmap(cmap)
-    ax.add_collection(walls)
     if solution is not None and filled:
-        _fill(ax, scene, solution, band, filled, walls)
+        _fill(ax, view, solution, band, filled, walls)
+    _surroundings(ax, scene)
     if solution is not None and colorbar:
         ax.figure.colorbar(walls, ax=ax, label="B")
     if labels:
-        for name, (a, b) in zip(scene.names, scene.segments):
-            ax.annotate(name, (a + b) / 2, fontsize="small", ha="center", va="center")
-    ax.set_aspect("equal")
-    ax.use_sticky_edges = False
-    ax.autoscale_view()
+        for name, ends in zip(scene.names, scene.segments):
+            middle = _part(ends[None], view.low, view.high)
+            if len(middle):
+                ax.annotate(name, middle.mean(axis=0), fontsize="small", ha="center", va="center")
+    _frame(ax, scene, view)
     return ax
 
 
@@ -90,10 +217,12 @@ def _svg(scene: Any, solution: Any = None, width: float = 360) -> str:
     """The walls; coloured by B of the first band if there is a solution."""
     if len(scene) == 0:
         return ""
-    extent, ends = _extent(scene), scene.segments.reshape(-1, 2)
-    pieces, t = _strokes(scene, 17 if solution is not None else 2, 0.006 * extent)
-    low, high = ends.min(axis=0) - 0.03 * extent, ends.max(axis=0) + 0.03 * extent
+    low, high, *_ = _view(scene, None)
+    edge = 0.03 * max(high - low)
+    low, high = low - edge, high + edge
     scale = width / max(high - low)
+    pieces, t = _strokes(scene.segments, 17 if solution is not None else 2)
+    pieces = pieces + SHIFT / scale * _fronts(scene)[:, None, None]
     strokes = np.full(pieces.shape[:2], "currentColor", dtype=object)
     if solution is not None:
         colours = _colours(scene, solution, t, 0)

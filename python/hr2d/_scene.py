@@ -485,6 +485,13 @@ class Scene:
         """How many images mirrors and a period make of each patch, with the patch itself."""
         return int(lib.hr2d_scene_images(self.commit()._raw))
 
+    def image(self, image: int) -> Array:
+        """The ends of an image of each patch, (n, 2, 2); number 0 are the patches themselves."""
+        if not 0 <= image < self.images:
+            raise IndexError(f"there are images 0 to {self.images - 1}, not {image}")
+        lines = [lib.hr2d_scene_image(self._raw, k, image) for k in range(len(self))]
+        return np.array([[(s.a.x, s.a.y), (s.b.x, s.b.y)] for s in lines]).reshape(-1, 2, 2)
+
     @property
     def cut_off(self) -> float:
         """The largest part of the directions from a patch in which images are extrapolated."""
@@ -830,14 +837,20 @@ class Scene:
 
     def plot(self, solution: Optional[Solution] = None, *, ax: Any = None, band: int = 0,
              cmap: Any = "viridis", points: int = 33, labels: bool = False,
-             colorbar: bool = True, filled: int = 160) -> Any:
+             colorbar: bool = True, filled: int = 160,
+             box: Optional[Sequence[float]] = None) -> Any:
         """Draws the walls, coloured by B if there is a solution; returns matplotlib's axes.
 
         Backs and fronts are drawn beside each other, each on the side of its front.  The plane
         between them has the mean radiosity of all directions, at `filled` points in its longer
         side; 0 for none.
+
+        `box` is the part of the plane that is shown, (x0, y0, x1, y1).  Without it that is the
+        scene; but of patches 8 times as long as the extent of all that is 8 times shorter, such
+        as the ground under a few things, only what is near these, with a note.  What stands
+        around a cell between mirrors or in a period is drawn faintly.
         """
-        return _draw.plot(self, solution, ax, band, cmap, points, labels, colorbar, filled)
+        return _draw.plot(self, solution, ax, band, cmap, points, labels, colorbar, filled, box)
 
     def _repr_html_(self) -> str:
         return _draw.scene_html(self)

@@ -85,7 +85,7 @@ add() and add_file() pass all through the reader of scene files
 hr2d_gas_init hr2d_scene_add hr2d_scene_add_gas hr2d_scene_add_thermal hr2d_scene_read hr2d_scene_set_sky hr2d_scene_set_sun hr2d_patch_init
 hr2d_thermal_init
 arrays of patches, elements and links
-hr2d_scene_segment hr2d_scene_length hr2d_scene_image hr2d_element_level hr2d_element_parent hr2d_hierarchy_leaf
+hr2d_scene_segment hr2d_scene_length hr2d_element_level hr2d_element_parent hr2d_hierarchy_leaf
 hr2d_hierarchy_originals hr2d_hierarchy_scene hr2d_linkset_get hr2d_linkset_size hr2d_linkset_policy
 B, H, net_flux, at() and account
 hr2d_solution_error hr2d_solution_gather_net_flux hr2d_solution_work hr2d_solution_element_irradiance

@@ -44,8 +44,83 @@ def test_fronts_and_backs_are_apart(room):
     pytest.importorskip("matplotlib")
     from matplotlib import pyplot
 
-    front, back = room.plot(ax=pyplot.figure().gca()).collections[0].get_segments()[5:]
-    assert front[0][1] > .75 > back[0][1]
+    walls = room.plot(ax=pyplot.figure().gca()).collections[0]
+    front, back = walls.get_segments()[5:]
+    assert front[0][1] == back[0][1] == .75
+    # Shifted by two points of the page, not by a part of the scene.
+    shift = walls.get_offset_transform().transform(walls.get_offsets())[5:]
+    assert shift == pytest.approx(np.array([[0, 2], [0, -2]]) * walls.figure.dpi / 72)
+
+
+def limits(axes):
+    return *axes.get_xlim(), *axes.get_ylim()
+
+
+def test_a_box_is_a_part_of_the_plane(room):
+    pyplot = pytest.importorskip("matplotlib.pyplot")
+    s = room.solve(error=1e-2)
+    axes = room.plot(s, ax=pyplot.figure().gca(), filled=20, labels=True, box=(2, .5, 1, 0))
+    assert limits(axes) == (1, 2, 0, .5)
+    image = axes.images[0]
+    assert tuple(image.get_extent()) == (1, 2, 0, .5)
+    x, y = np.meshgrid(1 + (np.arange(20) + .5) / 20, (np.arange(10) + .5) / 20)
+    assert np.asarray(image.get_array()) == pytest.approx(s.field((x, y)).mean[..., 0], nan_ok=True)
+    whole = room.plot(s, ax=pyplot.figure().gca(), filled=0, labels=True)
+    assert 0 < len(axes.texts) < len(whole.texts)
+    with pytest.raises(ValueError):
+        room.plot(s, ax=pyplot.figure().gca(), box=(0, 0, 1))
+
+
+def ground(length):
+    scene = hr2d.Scene(background=1)
+    scene.add([(-length / 2, 0), (length / 2, 0)], reflectance=.3, name="ground")
+    scene.add([(0, 1), (0, 3)], reflectance=.5, sides="both", name="mast")
+    scene.add([(4, 1), (4, 2)], reflectance=.5, name="post")
+    return scene
+
+
+def test_long_ground_goes_on_beyond_the_picture():
+    pyplot = pytest.importorskip("matplotlib.pyplot")
+    scene = ground(2000)
+    axes = scene.plot(scene.solve(error=1e-2), ax=pyplot.figure().gca(), filled=10)
+    # The extent of the rest is 4: 10 % of it along the ground, and 6 % around all.
+    assert limits(axes) == pytest.approx((-.64, 4.64, -.24, 3.24))
+    assert axes.texts[0].get_text() == ("1 patch goes on beyond the picture: the scene is from "
+                                        "(-1000, 0) to (1000, 3)")
+    far = ground(2000)
+    far.add([(1000, -20), (-1000, -20)], reflectance=.3)
+    far.add([(500, 2), (2500, 2)], reflectance=.3)
+    assert limits(far.plot(ax=pyplot.figure().gca())) == limits(axes)
+    axes = ground(20).plot(ax=pyplot.figure().gca())
+    assert limits(axes)[0] < -10 and not axes.texts
+    # Notebooks show the same part.
+    height = float(svg(scene._repr_html_()).get("height"))
+    assert 150 < height < 360, height
+
+
+def test_what_is_around_a_cell_is_pale():
+    pyplot = pytest.importorskip("matplotlib.pyplot")
+    scene = hr2d.Scene(background=1)
+    scene.add([(0, 0), (3, 0)], reflectance=.3)
+    scene.add([(1, 1), (2, 1)], reflectance=.3, sides="both")
+    scene.set_period(3, 0)
+    alone = scene.plot(ax=pyplot.figure().gca())
+    assert len(alone.collections) == 1  # not yet committed
+    axes = scene.plot(scene.solve(error=1e-2), ax=pyplot.figure().gca(), filled=10)
+    walls, pale = axes.collections[:2]
+    segments = np.array(pale.get_segments())
+    assert len(segments) == 3 * (scene.images - 1)
+    assert segments[:3] == pytest.approx(scene.image(1))
+    assert {abs(x) % 3 for x in np.round(segments[:, 0, 0], 9)} <= {0, 1, 2}
+    assert limits(axes) == pytest.approx((-.48, 3.48, -.18, 1.18))
+    with pytest.raises(IndexError):
+        scene.image(scene.images)
+    half = hr2d.Scene(background=1)
+    half.add([(0, 0), (2, 0)], reflectance=.3)
+    half.add_mirror((0, 0), (0, 1))
+    axes = half.plot(half.solve(error=1e-2), ax=pyplot.figure().gca(), filled=0)
+    assert np.array(axes.collections[1].get_segments()) == pytest.approx(half.image(1))
+    assert axes.lines[0].get_linestyle() == "-."
 
 
 def svg(text):

@@ -116,7 +116,7 @@ usage "--link-parents needs --variant modified" solve "$far" --draw a.svg --link
 
 # ---- help and version
 fits_screen() {
-  awk 'length($0) > 80 { bad = 1 } END { exit bad || NR < 5 || NR > 48 }' "$work/out"
+  awk 'length($0) > 80 { bad = 1 } END { exit bad || NR < 5 || NR > 49 }' "$work/out"
 }
 for command in "" info solve study cost factors field pair schema; do
   # shellcheck disable=SC2086

@@ -216,6 +216,42 @@ done
 check "a square one has not" between "$(aspect "$work/black.svg")" 0.8 1.4
 succeeds field "$black" --quiet --box 0.2,0.4,0.6,0.5 --draw "$work/part.svg"
 check "a part of the plane: $(aspect "$work/part.svg")" between "$(aspect "$work/part.svg")" 1.9 3
+# A solve shows the same part of the same light.
+same_pixels() {
+  set -- "$1" "$2" 150 220 250 200 350 210 450 190 550 180
+  one=$1 two=$2
+  shift 2
+  test "$("$pixels" "$one" "$@")" = "$("$pixels" "$two" "$@")"
+}
+succeeds field "$black" --quiet --eps 0.5 --box 0.2,0.4,0.6,0.5 --draw "$work/part.png"
+succeeds solve "$black" --quiet --eps 0.5 --box 0.6,0.5,0.2,0.4 --draw "$work/same.png"
+check "solve and field draw the same box" same_pixels "$work/part.png" "$work/same.png"
+succeeds solve "$black" --quiet --eps 0.5 --draw "$work/other.png"
+other_pixels() {
+  ! same_pixels "$@"
+}
+check "the whole is another picture" other_pixels "$work/part.png" "$work/other.png"
+usage "--box needs --draw" solve "$black" --eps 0.5 --box 0,0,1,1
+
+# ---- ground that is far longer than all that stands on it goes on beyond the picture, which says
+# so; a wall that is only long does not
+ground=$(patch ground 0 0.5 '[-1000, 0], [1000, 0]')
+room "$work/ground.geojson" "$ground" "$(patch mast 1 0.5 '[0, 1], [0, 3]')" \
+  "$(patch post 1 0.5 '[4, 1], [4, 2]')"
+succeeds solve "$work/ground.geojson" --quiet --eps 1 --draw "$work/ground.svg"
+check "a picture of what stands on the ground: $(aspect "$work/ground.svg")" \
+  between "$(aspect "$work/ground.svg")" 0.9 2.5
+# Letters are outlines: the sentence makes more of them than there are without it.
+room "$work/street.geojson" "$(patch ground 0 0.5 '[-10, 0], [10, 0]')" \
+  "$(patch mast 1 0.5 '[0, 1], [0, 3]')" "$(patch post 1 0.5 '[4, 1], [4, 2]')"
+succeeds solve "$work/street.geojson" --quiet --eps 1 --draw "$work/street.svg"
+check "ground of 20 is shown whole: $(aspect "$work/street.svg")" \
+  between "$(aspect "$work/street.svg")" 2.5 8
+letters() {
+  grep -o '<use ' "$1" | wc -l
+}
+check "the picture says what it leaves out: $(letters "$work/ground.svg") letters" \
+  test "$(letters "$work/ground.svg")" -gt $(($(letters "$work/street.svg") + 40))
 
 # ---- links as tiles: each has one in the rectangle of two patches, which they fill, and two in
 # the square of more patches

@@ -66,6 +66,9 @@ static const option_entry table[] = {
    .help = {{SOLVE, "the scene filled with its light, as .svg, .png or .pdf"},
             {FIELD, "a picture of the light, as .svg, .png or .pdf"}},
    .rules = IS_OUTPUT},
+  {"box", "X0,Y0,X1,Y1", GROUP_OUTPUT, VALUE(box, box),
+   .help = {{SOLVE, "of this part of the plane"},
+            {FIELD, "where the grid begins and ends (around all patches)"}}},
   {"quantity", "NAME", GROUP_OUTPUT, VALUE(light, quantity),
    .help = {{FIELD, "fill with mean (default), flux, sky or temperature"}},
    .needs = "draw"},
@@ -147,8 +150,6 @@ static const option_entry table[] = {
 
   {"grid", "WxH", GROUP_QUESTION, value_grid, MEMBER(grid, grid), {1, 100000},
    .help = {{FIELD, "nodes of a grid (64 along the longer side of the box)"}}},
-  {"box", "X0,Y0,X1,Y1", GROUP_QUESTION, VALUE(box, box),
-   .help = {{FIELD, "where the grid begins and ends (around all patches)"}}},
   {"points", "FILE|-", GROUP_QUESTION, VALUE(path, points),
    .help = {{FIELD, "instead of a grid, lines \"x y\" or \"x y nx ny\"; or -"}}},
   {"normal", "X,Y", GROUP_QUESTION, VALUE(vector, normal),

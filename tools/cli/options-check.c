@@ -100,6 +100,8 @@ static int check_parents(const options *o) {
 
 /* What a picture cannot show at once. */
 static int check_picture(const options *o) {
+  if (o->command == SOLVE && o->box.given && !o->draw)
+    return complain_usage("--box needs --draw");
   if (o->log_scale && o->linear_scale)
     return complain_usage("--log and --linear exclude each other");
   if (o->no_fill && o->quantity != QUANTITY_MEAN)

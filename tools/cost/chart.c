@@ -12,8 +12,8 @@
 
 enum { MOST_CURVES = 16, MOST_ROWS = 1024, WIDTH = 900, HEIGHT = 640 };
 
-/* Parts of the width: kept for names, of a character; of the height: of a line; and the gap
-   between a curve and its name. */
+/* Parts of the width: kept for names at most, of a character; of the height: of a line; and the
+   gap between a curve and its name. */
 #define LABELS    0.27
 #define CHARACTER 0.0095
 #define LINE      0.034
@@ -32,6 +32,7 @@ typedef struct chart {
   const cost_row *rows[MOST_ROWS]; /* those that are drawn, method after method */
   size_t row_count;
   double worst, best, min, max; /* decades of error and of the quantity */
+  double last;                  /* decade of error where the place kept for names begins */
   curve curves[MOST_CURVES];
   size_t count;
 } chart;
@@ -102,7 +103,7 @@ static void measure(chart *d) {
     d->min = fmin(d->min, decade_of_cost(d, row));
   }
   d->worst = fmin(1, d->worst) + 0.2;
-  d->best -= LABELS / (1 - LABELS) * (d->worst - d->best) + 0.2;
+  d->last = d->best -= 0.2;
   d->max += 0.5;
   d->min -= 0.3;
 }
@@ -139,6 +140,19 @@ static void find_curves(chart *d) {
 
 static double width_of(const curve *v) {
   return CHARACTER * (double)strlen(v->text);
+}
+
+/* Keeps as much of the right side as the names take at the ends of their curves: an end at x
+   moves to (1 − kept) x. */
+static void keep_place(chart *d) {
+  double kept = 0;
+  for (size_t k = 0; k < d->count; k++) {
+    const curve *v = &d->curves[k];
+    if (v->end.x > 0) kept = fmax(kept, 1 - (1 - 2 * GAP - width_of(v)) / v->end.x);
+  }
+  kept = fmin(LABELS, kept);
+  d->best = d->worst - (d->worst - d->best) / (1 - kept);
+  for (size_t k = 0; k < d->count; k++) d->curves[k].end.x *= 1 - kept;
 }
 
 /* Whether the line from a to b passes through the name at `label`. */
@@ -189,10 +203,9 @@ static void place_label(chart *d, size_t k) {
 
 /* At every decade, or at every second one if there are many. */
 static void write_tics(FILE *script, const chart *d) {
-  const double end = d->best + LABELS * (d->worst - d->best);
-  const int step = d->worst - end > 7 ? 2 : 1;
+  const int step = d->worst - d->last > 7 ? 2 : 1;
   const char *separator = "set xtics (";
-  for (int e = step * (int)floor(d->worst / step); e >= end; e -= step) {
+  for (int e = step * (int)floor(d->worst / step); e >= d->last; e -= step) {
     fprintf(script, "%s'10^{%d}' 1e%d", separator, e, e);
     separator = ", ";
   }
@@ -259,6 +272,7 @@ static void make_panel(chart *d, const cost *c, against quantity) {
   choose_rows(d);
   measure(d);
   find_curves(d);
+  keep_place(d);
   for (size_t k = 0; k < d->count; k++) place_label(d, k);
 }
 

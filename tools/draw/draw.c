@@ -47,7 +47,7 @@ static void clip(const picture *p) {
 static int draw_page(picture *p) {
   title_draw(p);
   cairo_save(p->cr);
-  if (p->run->options->box.given) clip(p);
+  if (p->part) clip(p);
   if (p->filled) fill_draw(p);
   contours_draw(p);
   images_draw(p);

@@ -76,7 +76,7 @@ static int within(const box *b, const box *frame) {
 static int is_free(const picture *p, const box *b) {
   const box clear = {b->x0 - 3, b->y0 - 2, b->x1 + 3, b->y1 + 2};
   if (b->x0 < 4 || b->x1 > p->width - 4 || b->y0 < 58 || b->y1 > p->height - 4) return 0;
-  if (p->run->options->box.given && !within(b, &p->frame)) return 0;
+  if (p->part && !within(b, &p->frame)) return 0;
   return !obstacles_meet(p, &clear);
 }
 

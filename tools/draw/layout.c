@@ -71,7 +71,6 @@ static void widen(const picture *p, hr2d_point *low, hr2d_point *high) {
 }
 
 void layout_bounds(picture *p) {
-  const grid_box *given = &p->run->options->box;
   hr2d_point low = {INFINITY, INFINITY}, high = {-INFINITY, -INFINITY};
   for (size_t k = 0; k < hr2d_scene_patches(p->run->scene); k++) {
     const hr2d_element *e = root(p, k);
@@ -81,13 +80,6 @@ void layout_bounds(picture *p) {
     high.y = fmax(high.y, fmax(e->a.y, e->b.y));
   }
   widen(p, &low, &high);
-  if (given->given) {
-    const double unit = hr2d_scene_unit(p->run->scene);
-    low.x = fmin(given->side[0], given->side[2]) / unit;
-    low.y = fmin(given->side[1], given->side[3]) / unit;
-    high.x = fmax(given->side[0], given->side[2]) / unit;
-    high.y = fmax(given->side[1], given->side[3]) / unit;
-  }
   set_bounds(p, low, high);
 }
 
@@ -95,7 +87,7 @@ void layout_bounds(picture *p) {
 static margins choose_margins(const picture *p) {
   margins m = {MARGIN, MARGIN, 12, 12};
   if (p->name_count) m.top = m.bottom = 24;
-  if (p->run->options->box.given) return m;
+  if (p->part) return m;
   pen_font(p->cr, 10, 0);
   for (size_t k = 0; k < p->name_count; k++) {
     const hr2d_element *e = root(p, p->name[k].patch);
@@ -150,7 +142,7 @@ static box whole_pixels(box b) {
 static void set_frame(picture *p, double legend, double foot) {
   const double edge = 0.4 * MARGIN;
   p->frame = (box){edge, TITLE - 6, p->width - fmax(edge, legend), p->height - foot};
-  if (p->run->options->box.given)
+  if (p->part)
     p->frame = (box){p->origin.x, p->origin.y - p->size.y * p->scale,
                      p->origin.x + p->size.x * p->scale, p->origin.y};
   p->frame = whole_pixels(p->frame);
@@ -175,7 +167,8 @@ static void set_page(picture *p, margins m) {
 }
 
 int layout_make(picture *p) {
-  layout_bounds(p);
+  const int status = extent_choose(p);
+  if (status) return status;
   set_page(p, choose_margins(p));
   if (!(isfinite(p->scale) && p->scale > 0))
     return complain(p->run->options->draw, "the scene is too small to draw");

@@ -52,6 +52,7 @@ static void draw_level_key(const picture *p) {
 void legend_draw(const picture *p) {
   legend_draw_scale(p);
   draw_length_scale(p);
+  extent_draw_note(p);
   if (p->run->options->link_level != NO_LEVEL)
     neighbours_draw_key(p);
   else if (p->path_count && p->level_lo <= p->level_hi)

@@ -114,7 +114,10 @@ typedef struct picture {
   double scale;      /* points per element unit */
   hr2d_point low;    /* lower left corner of the scene, in element units */
   hr2d_point origin; /* where `low` is on the page */
-  hr2d_point size;   /* of the scene, or of the box that is shown, in element units */
+  hr2d_point size;   /* of the scene, or of the part that is shown, in element units */
+  int part;          /* the picture shows no more than that part */
+  size_t going_on;   /* patches that are left out of it, */
+  box whole;         /* and the bounds of all, in element units */
   box frame;         /* the part of the page that is for the scene */
   int flat;          /* the legend lies below the scene */
   double band;       /* thickness of the coloured bands */
@@ -207,7 +210,12 @@ void arrows_draw_key(const picture *p);
 /* layout.c: page size, scale and strokes. */
 int layout_make(picture *p);
 
-/* Parts of that: `low` and `size`; and, where scale and origin are known, the strokes. */
+/* extent.c: which part of the plane is shown, `low` and `size`; and what else there is. */
+int extent_choose(picture *p);
+void extent_draw_note(const picture *p);
+
+/* Parts of that: `low` and `size` of all; and, where scale and origin are known, the strokes.
+ */
 void layout_bounds(picture *p);
 int layout_strokes(picture *p);
 
