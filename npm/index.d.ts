@@ -210,6 +210,8 @@ export interface Patch extends PatchId {
   irradiance: Values;
   /** B - H */
   net_flux: Values;
+  /** B - H over the length of the patch. */
+  net_power: Values;
   /** The part of H that comes straight from the sun; only of a scene with a sun. */
   sunlight?: Values;
   /** In kelvin; this and what follows only of a scene with temperatures or fluxes. */

@@ -27,6 +27,7 @@ EXTRA_DIST += \
 	python/hr2d/_state.py \
 	python/hr2d/_strategy.py \
 	python/hr2d/convert.py \
+	python/hr2d/sun.py \
 	python/hr2d/py.typed \
 	python/hr2d_backend.py \
 	python/hr2d_build.py \
@@ -53,6 +54,7 @@ EXTRA_DIST += \
 	python/tests/test_links.py \
 	python/tests/test_operator.py \
 	python/tests/test_solve.py \
+	python/tests/test_sun.py \
 	python/tests/test_thermal.py \
 	python/tests/typed_example.py
 

@@ -337,6 +337,18 @@ HR2D_API double hr2d_solution_net_flux(const hr2d_solution *solution, size_t pat
                                        size_t band);
 
 /**
+ * The net power that leaves a patch: the integral of B − H over it.
+ * @param solution  a solution
+ * @param patch     the index of a patch
+ * @param band      a band
+ * @return power in the unit of E times a scene length; with temperatures W per metre across the
+ *         section. Negative if the patch gains power. hr2d_solution_temperatures() has its sum
+ *         over the bands, with the bound of its error
+ */
+HR2D_API double hr2d_solution_net_power(const hr2d_solution *solution, size_t patch,
+                                        size_t band);
+
+/**
  * The balance of the power of a band.
  * @param solution  a solution
  * @param band      a band

@@ -19,6 +19,13 @@
  * one temperature is in equilibrium to all digits, for any ε. The answer is that of a scene
  * with these E and ρ, bit for bit.
  *
+ * **Heaters.** #HR2D_HEAT_POWER gives the net heat Q of a patch, in W for each metre across the
+ * section, in the place of q. With HR2D_SIDES_BOTH it is that of both sides together; in a
+ * file, "heat" is that of all patches of a feature. It leaves evenly: q = Q/Σ lengths, which
+ * commit computes. So Q stays when a patch is moved or cut by hr2d_scene_snap() or
+ * hr2d_scene_split_crossings(). Otherwise such a patch is one of given q, and
+ * hr2d_scene_heat() calls it so. hr2d_temperatures::heat has Q of every patch.
+ *
  * **Shields.** #HR2D_HEAT_SHIELD makes a patch a side of a sheet so thin that both sides have
  * one temperature at each place, and that gives no net heat there, as a radiation shield: ε(σT⁴
  * − H) + ε′(σT⁴ − H′) = 0 with ε′ and H′ of the other side. HR2D_SIDES_BOTH adds two sides that
@@ -87,7 +94,8 @@ typedef enum hr2d_heat {
   HR2D_HEAT_NONE = 0,    /**< E and ρ */
   HR2D_HEAT_TEMPERATURE, /**< T and ε */
   HR2D_HEAT_FLUX,        /**< q and ε */
-  HR2D_HEAT_SHIELD       /**< ε of a side of a sheet without net heat */
+  HR2D_HEAT_SHIELD,      /**< ε of a side of a sheet without net heat */
+  HR2D_HEAT_POWER        /**< Q and ε, to hr2d_scene_add_thermal(): a flux of Q per length */
 } hr2d_heat;
 
 /**
@@ -106,7 +114,7 @@ typedef double (*hr2d_emissivity_fn)(void *ctx, double kelvin, size_t band);
 typedef struct hr2d_thermal {
   size_t struct_size;       /**< so that the struct can grow */
   hr2d_heat given;          /**< the meaning of `value`: a temperature or a flux; or a shield */
-  double value;             /**< T ≥ 0 in kelvin, or q in W/m²; 0 of a shield */
+  double value;             /**< T ≥ 0 in kelvin, q in W/m², or Q in W/m; 0 of a shield */
   const double *emissivity; /**< ε in (0,1] with a flux or of a shield, in [0,1] with a
                                  temperature; copied */
   size_t emissivity_bands;  /**< number of values in `emissivity`: one per band, or one for all;
@@ -146,9 +154,9 @@ HR2D_API void hr2d_thermal_init(hr2d_thermal *thermal, size_t size);
  * @retval HR2D_EUNSUPPORTED  the emissivity of a shield depends on temperature
  * @retval HR2D_ESTATE  the scene is committed
  * @retval HR2D_ESCENE  as hr2d_scene_add(); T is negative, so large that E is beyond a double,
- *                      or not finite; q is not finite; ε is outside of its range; a flux or a
- *                      shield has a transmittance, or ε + τ > 1; or several ε
- *                      are given that are not one for each band of the wavelengths; or the
+ *                      or not finite; q or Q is not finite; ε is outside of its range; a
+ *                      flux or a shield has a transmittance, or ε + τ > 1; or several ε are
+ *                      given that are not one for each band of the wavelengths; or the
  *                      temperatures of a table are negative or do not rise
  *
  * hr2d_scene_emission() and hr2d_scene_reflectance() return E and ρ of the table above.
@@ -212,8 +220,9 @@ HR2D_API hr2d_status hr2d_scene_set_weights(hr2d_scene *scene, const double *wei
  * The temperature or heat flux that is given of a patch.
  * @param scene  a scene
  * @param patch  the index of a patch
- * @param value  receives T or q; NaN if neither is given; may be NULL
- * @return which of them it is
+ * @param value  receives T or q; NaN if neither is given; may be NULL. Of a given power it is
+ *               the q that follows, after the commit
+ * @return which of them it is; #HR2D_HEAT_FLUX of a given power
  */
 HR2D_API hr2d_heat hr2d_scene_heat(const hr2d_scene *scene, size_t patch, double *value);
 

@@ -189,6 +189,7 @@ export const PROPERTIES = {
   light: ["emission", "reflectance", "Emission"],
   temperature: ["temperature", "emissivity", "Temperature, K"],
   flux: ["flux", "emissivity", "Net flux"],
+  heat: ["heat", "emissivity", "Heat, W/m"],
   shield: [null, "emissivity", ""],
   mirror: [null, null, ""],
 };
@@ -207,7 +208,7 @@ export function showWall(scene, chosen, band) {
   $("transmittance").closest(".row").hidden = !wall?.both;
   $("whole").closest(".choice").hidden = !wall || wall.alone;
   stretch("emission", scene.walls.map((_, k) => scene.value(k, first, band)), 1);
-  $("emission").min = first === "flux" ? -$("emission").max : 0;
+  $("emission").min = first === "flux" || first === "heat" ? -$("emission").max : 0;
   const missing = wall && second === "emissivity" ? 1 : 0;
   showPair("emission", wall && (scene.value(chosen, first, band) ?? 0));
   showPair("reflectance", wall && (scene.value(chosen, second, band) ?? missing));

@@ -8,12 +8,13 @@ import { foot, linesOf, removeBoxes, runsOf, setRun } from "./geojson.js";
 
 const FAR_LONGER = 8;
 const LIGHT = ["emission", "reflectance", "transmittance"];
-const HEAT = ["temperature", "flux", "shield", "emissivity"];
+const HEAT = ["temperature", "flux", "heat", "shield", "emissivity"];
 /** What a wall of each kind begins with. */
 const KINDS = {
   light: { emission: 0, reflectance: 0.5 },
   temperature: { temperature: 300, emissivity: 0.9 },
   flux: { flux: 0, emissivity: 0.9 },
+  heat: { heat: 0, emissivity: 0.9 },
   shield: { shield: true, emissivity: 0.1, sides: "both" },
   mirror: { sides: "mirror" },
 };
@@ -245,6 +246,7 @@ export class Scene {
     const parts = this.walls.filter((w) => w.feature === feature);
     const whole = features[feature];
     const { id, bbox, geometry, ...rest } = whole.type === "Feature" ? whole : { type: "Feature" };
+    const length = parts.reduce((sum, w) => sum + distance(w.a, w.b), 0);
     features.splice(
       feature,
       1,
@@ -252,6 +254,7 @@ export class Scene {
         const { faces, ...properties } = structuredClone(propertiesOf(whole));
         if (given(properties.name))
           properties.name = this.facts[first + k]?.name ?? `${properties.name}/${k + 1}`;
+        if (given(properties.heat)) properties.heat *= distance(w.a, w.b) / length; // of all
         const line = { type: "LineString", coordinates: [[...w.a], [...w.b]] };
         return { ...structuredClone(rest), properties, geometry: line };
       }),
@@ -276,7 +279,7 @@ export class Scene {
 
   /** A value with one for each band, where a scene has several. */
   withBand(old, key, band, value) {
-    const grey = ["temperature", "flux", "background_temperature"].includes(key);
+    const grey = ["temperature", "flux", "heat", "background_temperature"].includes(key);
     if (this.bands === 1 || grey) return value;
     const before = Array.isArray(old) ? old : Array(this.bands).fill(old ?? 0);
     return before.map((v, k) => (k === band ? value : v));
@@ -500,5 +503,6 @@ function kindOf(properties) {
   if (given(properties.emission)) return "light";
   if (given(properties.temperature)) return "temperature";
   if (given(properties.flux)) return "flux";
+  if (given(properties.heat)) return "heat";
   return properties.shield === true ? "shield" : "light";
 }

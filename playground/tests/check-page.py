@@ -306,6 +306,7 @@ FEATURES = {
         {"background_temperature": 290},
         [wall(FLOOR, temperature=900, emissivity=0.8), wall([[2, 0], [0, 1]], flux=0)],
     ),
+    "heat": ({}, [room(temperature=300), wall(BOX, heat=50, emissivity=0.5, sides="both")]),
     "flux": ({}, [room(flux=-100, emissivity=0.5), wall(BOX, temperature=800, sides="both")]),
     "spectrum": (
         {"wavelengths": [3, 8]},

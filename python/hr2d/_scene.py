@@ -254,7 +254,8 @@ class Scene:
 
     def add(self, shape: Any, *, emission: Optional[Values] = None,
             reflectance: Optional[Values] = None, temperature: Optional[float] = None,
-            flux: Optional[float] = None, emissivity: Optional[Values] = None,
+            flux: Optional[float] = None, heat: Optional[float] = None,
+            emissivity: Optional[Values] = None,
             transmittance: Optional[Values] = None, shield: Optional[bool] = None,
             back: Optional[Mapping[str, Any]] = None,
             name: Optional[str] = None, sides: Optional[str] = None,
@@ -267,11 +268,12 @@ class Scene:
 
         emission, reflectance
             One value, or one per band; 0 by default.
-        temperature, flux
+        temperature, flux, heat
             In place of these: T in kelvin, or the net heat flux that leaves in W/m², 0 on an
-            insulated wall.
+            insulated wall, or the net heat of all these patches together in W per metre, as of a
+            heater.
         emissivity
-            With a temperature or a flux: one value, or one per band, or a table of entries
+            With one of these three: one value, or one per band, or a table of entries
             [T, value] or [T, value per band, …]; 1 by default.
         transmittance
             Of a pane, which scatters light to both sides; with sides="both".
@@ -296,6 +298,7 @@ class Scene:
         return self.add_text(text_of(shape, {"name": name, "emission": emission,
                                              "reflectance": reflectance,
                                              "temperature": temperature, "flux": flux,
+                                             "heat": heat,
                                              "emissivity": emissivity,
                                              "transmittance": transmittance, "shield": shield,
                                              "back": back,

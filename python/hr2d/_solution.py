@@ -212,8 +212,8 @@ class Account:
         return _draw.account_html(self)
 
 
-_OF_PICKLE = ("B", "H", "net_flux", "power", "power_cut_off", "temperatures", "element_B",
-              "residual")
+_OF_PICKLE = ("B", "H", "net_flux", "net_power", "power", "power_cut_off", "temperatures",
+              "element_B", "residual")
 
 
 class Solution:
@@ -321,6 +321,17 @@ class Solution:
     def net_flux(self) -> Array:
         """B − H, (patches, bands); negative where a patch gains."""
         return self._averages("hr2d_solution_net_flux")
+
+    @cached_property
+    def net_power(self) -> Array:
+        """B − H over the length, (patches, bands), in the unit of E times a scene length; with
+        temperatures in W per metre.
+
+        >>> s = square().solve(error=1e-9)
+        >>> s.net_power.shape, abs(float(s.net_power.sum())) < 1e-9
+        ((4, 1), True)
+        """
+        return self._averages("hr2d_solution_net_power")
 
     @cached_property
     def temperatures(self) -> Temperatures:
@@ -496,8 +507,9 @@ class Solution:
         return kelvin
 
     def to_dataframe(self) -> Any:
-        """A pandas.DataFrame with a row for each patch and band: B, H, B − H in the unit of E;
-        T in kelvin and the heat in W per metre where temperatures or fluxes are given."""
+        """A pandas.DataFrame with a row for each patch and band: B, H, B − H in the unit of E, and
+        B − H over the length; T in kelvin and the heat in W per metre, over all bands, where
+        temperatures, fluxes or heats are given."""
         pandas: Any = import_module("pandas")
 
         patches, bands = self.B.shape
@@ -505,19 +517,21 @@ class Solution:
                    "name": np.repeat(np.array(self.scene.names, dtype=object), bands),
                    "band": np.tile(np.arange(bands), patches),
                    "length": np.repeat(self.scene.lengths, bands),
-                   "B": self.B.ravel(), "H": self.H.ravel(), "net_flux": self.net_flux.ravel()}
+                   "B": self.B.ravel(), "H": self.H.ravel(), "net_flux": self.net_flux.ravel(),
+                   "net_power": self.net_power.ravel()}
         if self.scene._has_heat():
             columns["temperature"] = np.repeat(self.temperatures.kelvin, bands)
             columns["heat"] = np.repeat(self.temperatures.heat, bands)
         return pandas.DataFrame(columns)
 
     def write_npz(self, path: Any) -> None:
-        """Writes an .npz file of numpy: B, H, net_flux, names, segments and lengths of the patches,
-        and elements with element_B.
+        """Writes an .npz file of numpy: B, H, net_flux, net_power, names, segments and lengths of
+        the patches, and elements with element_B.
 
         numpy.load(path)["B"] reads it again.
         """
         np.savez_compressed(path, B=self.B, H=self.H, net_flux=self.net_flux,
+                            net_power=self.net_power,
                             names=np.array(self.scene.names), segments=self.scene.segments,
                             lengths=self.scene.lengths, unit=self.scene.unit,
                             element_B=self.element_B,
@@ -525,12 +539,13 @@ class Solution:
                                ("a", "b", "child", "patch")})
 
     def to_xarray(self) -> Any:
-        """An xarray.Dataset of B, H and net_flux with the dimensions patch and band, and the
+        """An xarray.Dataset of B, H, net_flux and net_power with the dimensions patch and band, and the
         names and lengths of the patches; temperatures and heat as in to_dataframe()."""
         xarray: Any = import_module("xarray")
 
         dims = ("patch", "band")
-        values: Dict[str, Any] = {name: (dims, getattr(self, name)) for name in ("B", "H", "net_flux")}
+        values: Dict[str, Any] = {name: (dims, getattr(self, name)) for name in
+                                  ("B", "H", "net_flux", "net_power")}
         if self.scene._has_heat():
             values["temperature"] = (dims[:1], self.temperatures.kelvin)
             values["heat"] = (dims[:1], self.temperatures.heat)

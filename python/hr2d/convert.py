@@ -26,7 +26,7 @@ __all__ = ["ConvertWarning", "read"]
 FORMATS = {".dxf": "dxf", ".svg": "svg", ".msh": "gmsh", ".vtk": "vtk", ".vtu": "vtu",
            ".vtp": "vtp"}
 SURFACE = ("emission", "reflectance", "transmittance")
-HEAT = ("temperature", "flux", "emissivity", "shield")
+HEAT = ("temperature", "flux", "heat", "emissivity", "shield")
 
 
 class ConvertWarning(UserWarning):
@@ -57,7 +57,7 @@ def _check(**choices: Any) -> None:
 def _properties(general: Mapping[str, Any], own: Mapping[str, Any]) -> Dict[str, Any]:
     """Those of a name in front of those of all: a heated patch has no emission, and the other way
     round."""
-    heat, surface = ("temperature", "flux", "shield"), ("emission", "reflectance")
+    heat, surface = ("temperature", "flux", "heat", "shield"), ("emission", "reflectance")
     if any(own.get(key) is not None for key in heat):
         general = {k: v for k, v in general.items() if k not in heat + surface}
     elif any(own.get(key) is not None for key in surface):
@@ -222,7 +222,7 @@ def _parser() -> argparse.ArgumentParser:
     add("--only", metavar="NAME", action="append", help="leave out all others; may be repeated")
     add("--tags", metavar="ARRAY", help="what names cells of meshes")
     add("--materials", metavar="FILE", help="JSON: an object from names to their properties")
-    for key in SURFACE + HEAT[:3]:
+    for key in SURFACE + HEAT[:4]:
         add(f"--{key}", metavar="X[,X]", type=_values, help="of all patches, one or one per band")
     return parser
 
@@ -250,7 +250,7 @@ def text_of(scene: Mapping[str, Any]) -> str:
 def _convert(options: argparse.Namespace, say: Callable[[str], None]) -> None:
     from ._scene import Scene
 
-    given = {key: getattr(options, key) for key in SURFACE + HEAT[:3]}
+    given = {key: getattr(options, key) for key in SURFACE + HEAT[:4]}
     scene = read(options.file, format=options.format, tolerance=options.tolerance,
                  scale=options.scale, faces=options.faces, front=options.front,
                  sides=options.sides, join=options.join, names=options.names, only=options.only,

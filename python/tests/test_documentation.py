@@ -13,6 +13,7 @@ import pytest
 
 import hr2d
 import hr2d.convert
+import hr2d.sun
 
 
 def square():
@@ -52,7 +53,7 @@ def members(value):
 
 def test_all_is_documented():
     lacking = []
-    for name, value in [(name, getattr(module, name)) for module in (hr2d, hr2d.convert)
+    for name, value in [(name, getattr(module, name)) for module in (hr2d, hr2d.convert, hr2d.sun)
                         for name in module.__all__]:
         if isinstance(value, int):
             continue

@@ -34,6 +34,29 @@ def test_one_source_heats_all():
     assert links.kelvin == pytest.approx(t.kelvin) and np.isnan(links.bound[1])
 
 
+def test_a_heater_gives_its_heat():
+    muffle = make_muffle({"temperature": 600})
+    heated = hr2d.Scene()
+    for k, properties in enumerate([{"heat": 5000, "emissivity": .5}, {"flux": 0, "emissivity": .4},
+                                    {"temperature": 600}, {"flux": 0, "emissivity": .7}]):
+        heated.add(muffle.segments[k], **properties)
+    t = heated.solve(error=1e-9).temperatures
+    assert t.heat == pytest.approx([5000, 0, -5000, 0], abs=1e-3)
+    # A rod of four sides shares it by their lengths: what reaches the walls is the same.
+    rod = hr2d.Scene(background=0)
+    rod.add([(0, 0), (0, 1), (2, 1), (2, 0), (0, 0)], heat=300, name="rod")
+    s = rod.solve()
+    assert s.temperatures.heat == pytest.approx([50, 100, 50, 100])
+    assert s.net_power[:, 0] == pytest.approx([50, 100, 50, 100])
+    foil = hr2d.Scene(background=0)
+    foil.add([(0, 0), (0, 4)], heat=300, sides="both", emissivity=.5)
+    assert foil.solve().temperatures.heat == pytest.approx([150, 150])
+    with pytest.raises(hr2d.SceneError, match="heat cannot both be given"):
+        hr2d.Scene().add([(0, 0), (1, 0)], flux=1, heat=1)
+    with pytest.raises(hr2d.SceneError, match="of its own"):
+        hr2d.Scene().add([(0, 0), (1, 0)], heat=1, sides="both", back={"emissivity": .1})
+
+
 def test_what_cannot_be_is_said():
     with pytest.raises(hr2d.Error, match="negative radiosity"):
         make_muffle({"flux": -1e6}).solve()

@@ -7,7 +7,8 @@
 #include <string.h>
 
 #define REFLECTANCE                                                                            \
-  "write \"reflectance\": 1 - emissivity, or a \"temperature\" or \"flux\" beside it"
+  "write \"reflectance\": 1 - emissivity, or a \"temperature\", \"flux\" or \"heat\" beside "  \
+  "it"
 #define EMISSION "write \"emission\", power per scene length"
 #define BANDS    "write \"reflectance\" as an array with a number for each band"
 #define BOTH     "write \"sides\": \"both\""
@@ -25,6 +26,9 @@
 #define MIRROR "write \"sides\": \"mirror\" for a line of symmetry; walls reflect diffusely"
 #define SUN    "light from a direction is a \"sun\" in the member \"hr2d\""
 #define HEAT   "write \"flux\", the net heat flux that leaves, or \"emission\""
+#define POWER                                                                                  \
+  "write \"heat\", the net heat of the feature per length across the section, or "             \
+  "\"emission\", power per scene length"
 
 /* A name in small letters, the property that replaces it, or "" if there is none, and what to
    do. */
@@ -56,7 +60,6 @@ static const meant properties_meant[] = {
     {"gloss", "", DIFFUSE},
     {"glossiness", "", DIFFUSE},
     {"glossy", "", DIFFUSE},
-    {"heat", "flux", HEAT},
     {"heat_flux", "flux", HEAT},
     {"heatflux", "flux", HEAT},
     {"illuminance", "emission", EMISSION},
@@ -68,7 +71,7 @@ static const meant properties_meant[] = {
     {"luminosity", "emission", EMISSION},
     {"mirror", "sides", MIRROR},
     {"opacity", "transmittance", PANE},
-    {"power", "emission", EMISSION},
+    {"power", "emission", POWER},
     {"radiance", "emission", EMISSION},
     {"radiosity", "emission", EMISSION},
     {"reflection", "reflectance", GREY},
@@ -96,9 +99,9 @@ static const meant properties_meant[] = {
     {"twosided", "sides", BOTH}};
 
 /* Where the members of the format belong. */
-static const char *const of_properties[] = {"back",  "emission",    "emissivity",   "faces",
-                                            "flux",  "name",        "reflectance",  "shield",
-                                            "sides", "temperature", "transmittance"};
+static const char *const of_properties[] = {
+    "back", "emission",    "emissivity", "faces", "flux",        "heat",
+    "name", "reflectance", "shield",     "sides", "temperature", "transmittance"};
 static const char *const of_scene[] = {
     "background", "background_temperature", "medium", "period", "sky", "sun", "wavelengths",
     "weights"};
@@ -138,6 +141,7 @@ static int note_spelling(hr2di_geojson *reader, const json_t *object, const char
 static int is_lonely(const json_t *properties, const char *key) {
   return !strcmp(key, "emissivity") && !hr2di_geojson_member(properties, "temperature") &&
          !hr2di_geojson_member(properties, "flux") &&
+         !hr2di_geojson_member(properties, "heat") &&
          !hr2di_geojson_member(properties, "shield") &&
          !hr2di_geojson_member(properties, "reflectance");
 }

@@ -44,8 +44,9 @@ hr2d_status hr2di_geojson_surface(hr2di_geojson *reader, const json_t *propertie
 }
 
 /* Properties of which one takes the place of another. */
-static const char *const group[][3] = {{"emission", "temperature", "flux"},
-                                       {"reflectance", "emissivity", NULL}};
+enum { GROUP = 4 };
+static const char *const group[][GROUP] = {{"emission", "temperature", "flux", "heat"},
+                                           {"reflectance", "emissivity", NULL, NULL}};
 
 /* The properties of the back: those that are given, and else those of the feature.  NULL
    without memory. */
@@ -53,9 +54,9 @@ static json_t *properties_of_back(const json_t *properties, const json_t *back) 
   json_t *all = json_copy((json_t *)(uintptr_t)properties); /* changes nothing */
   for (size_t g = 0; g < sizeof group / sizeof *group && all; g++) {
     int given = 0;
-    for (int k = 0; k < 3 && group[g][k]; k++)
+    for (int k = 0; k < GROUP && group[g][k]; k++)
       given |= hr2di_geojson_member(back, group[g][k]) != NULL;
-    for (int k = 0; k < 3 && group[g][k] && given; k++) json_object_del(all, group[g][k]);
+    for (int k = 0; k < GROUP && group[g][k] && given; k++) json_object_del(all, group[g][k]);
   }
   if (all && !json_object_update(all, (json_t *)(uintptr_t)back)) return all;
   json_decref(all);
@@ -79,6 +80,17 @@ static void turn_round(hr2di_geojson *reader) {
   exchange(&reader->emission, &reader->back_emission);
   exchange(&reader->reflectance, &reader->back_reflectance);
   exchange(&reader->transmittance, &reader->back_transmittance);
+}
+
+/* Heat is that of both sides, which share it evenly if they are alike. */
+static hr2d_status check_heat(hr2di_geojson *reader, const json_t *back) {
+  if (reader->thermal.given != HR2D_HEAT_POWER) return HR2D_OK;
+  for (int k = 0; k < GROUP; k++)
+    if (hr2di_geojson_member(back, group[0][k])) return HR2D_OK;
+  return hr2di_message_fail(reader->message, HR2D_ESCENE,
+                            "%s: back: the heat of sides that differ has to be told for each: "
+                            "give the back a \"heat\" of its own",
+                            reader->label);
 }
 
 static hr2d_status read_back(hr2di_geojson *reader, const json_t *properties,
@@ -112,5 +124,6 @@ hr2d_status hr2di_geojson_back(hr2di_geojson *reader, const json_t *properties) 
     return hr2di_message_fail(reader->message, HR2D_ESCENE,
                               "%s: back: there is none without \"sides\": \"both\"",
                               reader->label);
-  return read_back(reader, properties, back);
+  const hr2d_status status = check_heat(reader, back);
+  return status ? status : read_back(reader, properties, back);
 }

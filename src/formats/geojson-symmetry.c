@@ -23,7 +23,7 @@ hr2d_status hr2di_geojson_period(hr2di_geojson *reader, const json_t *members) {
 static hr2d_status check_mirror(hr2di_geojson *reader, const json_t *properties) {
   static const char *const surface[] = {"emission",   "reflectance", "transmittance",
                                         "emissivity", "temperature", "flux",
-                                        "shield",     "back"};
+                                        "heat",       "shield",      "back"};
   for (size_t k = 0; k < sizeof surface / sizeof *surface; k++)
     if (hr2di_geojson_member(properties, surface[k]))
       return hr2di_message_fail(

@@ -21,28 +21,34 @@ static hr2d_status read_number(hr2di_geojson *reader, const char *place, const c
   return HR2D_OK;
 }
 
-/* What a feature gives besides, or in place of, emission and reflectance.  A feature with
-   emission has thermal properties for its readers only. */
-static hr2d_status choose(hr2di_geojson *reader, const json_t *properties, const json_t **json,
-                          const char **key) {
-  const json_t *temperature = hr2di_geojson_member(properties, "temperature");
-  const json_t *flux = hr2di_geojson_member(properties, "flux");
-  *json = temperature ? temperature : flux;
-  *key = temperature ? "temperature" : "flux";
-  if (!*json || hr2di_geojson_member(properties, "emission")) {
-    *json = NULL;
-    return HR2D_OK;
+/* What is given in the place of emission: at most one of them. */
+static const struct given {
+  const char *key;
+  hr2d_heat heat;
+} ways[] = {{"temperature", HR2D_HEAT_TEMPERATURE},
+            {"flux", HR2D_HEAT_FLUX},
+            {"heat", HR2D_HEAT_POWER}};
+
+/* What a feature gives besides, or in place of, emission and reflectance; NULL: nothing.  A
+   feature with emission has thermal properties for its readers only. */
+static hr2d_status choose(hr2di_geojson *reader, const json_t *properties,
+                          const struct given **way) {
+  *way = NULL;
+  if (hr2di_geojson_member(properties, "emission")) return HR2D_OK;
+  for (size_t k = 0; k < sizeof ways / sizeof *ways; k++) {
+    if (!hr2di_geojson_member(properties, ways[k].key)) continue;
+    if (*way)
+      return hr2di_message_fail(reader->message, HR2D_ESCENE,
+                                "%s: %s and %s cannot both be given: each follows "
+                                "from the other",
+                                reader->label, (*way)->key, ways[k].key);
+    *way = &ways[k];
   }
-  if (temperature && flux)
-    return hr2di_message_fail(reader->message, HR2D_ESCENE,
-                              "%s: temperature and flux cannot both be given: each follows "
-                              "from the other",
-                              reader->label);
-  if (hr2di_geojson_member(properties, "reflectance"))
+  if (*way && hr2di_geojson_member(properties, "reflectance"))
     return hr2di_message_fail(reader->message, HR2D_ESCENE,
                               "%s: reflectance: beside a %s write \"emissivity\": "
                               "1 - reflectance",
-                              reader->label, *key);
+                              reader->label, (*way)->key);
   return HR2D_OK;
 }
 
@@ -91,8 +97,8 @@ static hr2d_status read_emissivity(hr2di_geojson *reader, const json_t *json) {
 
 /* "shield": true, beside an emissivity alone. */
 static hr2d_status read_shield(hr2di_geojson *reader, const json_t *properties) {
-  static const char *const others[] = {"emission", "reflectance", "transmittance",
-                                       "temperature", "flux"};
+  static const char *const others[] = {"emission",    "reflectance", "transmittance",
+                                       "temperature", "flux",        "heat"};
   for (size_t k = 0; k < sizeof others / sizeof *others; k++)
     if (hr2di_geojson_member(properties, others[k]))
       return hr2di_message_fail(reader->message, HR2D_ESCENE,
@@ -105,7 +111,7 @@ static hr2d_status read_shield(hr2di_geojson *reader, const json_t *properties) 
 
 hr2d_status hr2di_geojson_thermal(hr2di_geojson *reader, const json_t *properties) {
   const json_t *json = hr2di_geojson_member(properties, "shield");
-  const char *key = NULL;
+  const struct given *way;
   hr2d_thermal *t = &reader->thermal;
   *t = (hr2d_thermal)HR2D_THERMAL_INIT;
   if (json && !json_is_boolean(json))
@@ -113,10 +119,11 @@ hr2d_status hr2di_geojson_thermal(hr2di_geojson *reader, const json_t *propertie
                               "%s: shield: must be true or false, not %s", reader->label,
                               hr2di_geojson_kind(json));
   if (json_is_true(json)) return read_shield(reader, properties);
-  hr2d_status status = choose(reader, properties, &json, &key);
-  if (status || !json) return status;
-  status = read_number(reader, reader->label, key, json, &t->value);
-  t->given = *key == 't' ? HR2D_HEAT_TEMPERATURE : HR2D_HEAT_FLUX;
+  hr2d_status status = choose(reader, properties, &way);
+  if (status || !way) return status;
+  status = read_number(reader, reader->label, way->key,
+                       hr2di_geojson_member(properties, way->key), &t->value);
+  t->given = way->heat;
   return status ? status
                 : read_emissivity(reader, hr2di_geojson_member(properties, "emissivity"));
 }

@@ -59,9 +59,10 @@ static hr2d_status warn_of_wavelengths(const hr2di_lint *lint, range kelvin) {
       first, last, metres ? "metres" : "nanometres", metres ? "below" : "above");
 }
 
+/* The heat of a heater leaves both sides of it. */
 static int has_flux(const hr2d_scene *scene, size_t patch) {
-  double value;
-  return hr2d_scene_heat(scene, patch, &value) == HR2D_HEAT_FLUX;
+  const hr2di_light *light = scene->patch[patch].light;
+  return light->heat == HR2D_HEAT_FLUX && light->power == 0;
 }
 
 /* A patch and its own back, which follows it. */

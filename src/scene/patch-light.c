@@ -12,6 +12,7 @@ hr2di_light *hr2di_light_make(const hr2d_allocator *alloc, const hr2d_patch *pat
                               const hr2d_thermal *thermal) {
   const size_t e = patch->emission_bands, r = patch->reflectance_bands,
                t = patch->transmittance_bands;
+  const hr2d_heat heat = thermal ? thermal->given : HR2D_HEAT_NONE;
   const size_t kelvins = thermal ? thermal->kelvins : 0;
   const size_t emissivities = thermal ? thermal->emissivity_bands * (kelvins ? kelvins : 1) : 0;
   if (e > SIZE_MAX / 8 || r > SIZE_MAX / 8 || t > SIZE_MAX / 8 || emissivities > SIZE_MAX / 8 ||
@@ -25,8 +26,9 @@ hr2di_light *hr2di_light_make(const hr2d_allocator *alloc, const hr2d_patch *pat
                          .reflectance_bands = r,
                          .transmittance_bands = t,
                          .emissivity_bands = thermal ? thermal->emissivity_bands : 0,
-                         .heat = thermal ? thermal->given : HR2D_HEAT_NONE,
+                         .heat = heat == HR2D_HEAT_POWER ? HR2D_HEAT_FLUX : heat,
                          .given = thermal ? thermal->value : 0,
+                         .power = heat == HR2D_HEAT_POWER ? thermal->value : 0,
                          .kelvins = kelvins,
                          .emissivity_of = thermal ? thermal->emissivity_of : NULL,
                          .emissivity_ctx = thermal ? thermal->emissivity_ctx : NULL};
@@ -38,6 +40,12 @@ hr2di_light *hr2di_light_make(const hr2d_allocator *alloc, const hr2d_patch *pat
   for (size_t k = 0; k < t; k++)
     light->value[e + r + emissivities + kelvins + k] = patch->transmittance[k];
   return light;
+}
+
+void hr2di_light_add_length(hr2di_light *light, hr2d_segment patch) {
+  if (light->power == 0) return;
+  light->across += hypot(patch.b.x - patch.a.x, patch.b.y - patch.a.y);
+  light->given = light->value[0] = light->power / light->across;
 }
 
 void hr2di_light_release(const hr2d_allocator *alloc, hr2di_light *light) {

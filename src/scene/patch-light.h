@@ -14,6 +14,10 @@ enum { HR2DI_LIGHT_HEAD = (sizeof(hr2di_light) + sizeof(double) - 1) / sizeof(do
 hr2di_light *hr2di_light_make(const hr2d_allocator *alloc, const hr2d_patch *patch,
                               const hr2d_thermal *thermal);
 
+/* Lets a light of given power, which is of a flux, know a patch that has it: q is the power per
+   length of all of these.  Nothing happens to other lights. */
+void hr2di_light_add_length(hr2di_light *light, hr2d_segment patch);
+
 /* Ends one use of a light; the last frees it.  NULL is allowed. */
 void hr2di_light_release(const hr2d_allocator *alloc, hr2di_light *light);
 

@@ -31,6 +31,8 @@ typedef struct hr2di_light {
   size_t emissivity_bands;
   hr2d_heat heat;
   double given;   /* T or q; 0 without heat */
+  double power;   /* of all patches with this light, from which q follows; 0: q is given */
+  double across;  /* their length */
   size_t kelvins; /* for which there is an emissivity; 0: for all T the same */
   hr2d_emissivity_fn emissivity_of; /* NULL: none */
   void *emissivity_ctx;

@@ -117,6 +117,7 @@ static hr2d_status add_side(hr2d_scene *scene, const hr2d_patch *patch, size_t i
   if (!made.name) return HR2D_ENOMEM;
   light->users++;
   scene->patch[scene->patches++] = made;
+  hr2di_light_add_length(light, made.given);
   return HR2D_OK;
 }
 

@@ -16,6 +16,7 @@
 #include "base/black-body.h"
 #include "base/sized-struct.h"
 #include "scene/emissivity.h"
+#include "scene/patch-light.h"
 #include "scene/scene-impl.h"
 
 static hr2d_status refuse(hr2d_scene *scene, hr2d_status status, const hr2d_patch *patch,
@@ -24,10 +25,14 @@ static hr2d_status refuse(hr2d_scene *scene, hr2d_status status, const hr2d_patc
   return hr2di_message_fail(&scene->message, status, "%s: %s", label.text, why);
 }
 
+/* A power is that of a flux, which is known once all patches are that share it. */
+static int is_flux(const hr2d_thermal *t) {
+  return t->given == HR2D_HEAT_FLUX || t->given == HR2D_HEAT_POWER;
+}
+
 static hr2d_status check_value(hr2d_scene *scene, const hr2d_patch *patch,
                                const hr2d_thermal *t) {
-  if (t->given != HR2D_HEAT_TEMPERATURE && t->given != HR2D_HEAT_FLUX &&
-      t->given != HR2D_HEAT_SHIELD)
+  if (t->given != HR2D_HEAT_TEMPERATURE && !is_flux(t) && t->given != HR2D_HEAT_SHIELD)
     return refuse(scene, HR2D_EINVAL, patch, "neither a temperature nor a flux is given");
   if (t->given == HR2D_HEAT_SHIELD && t->value != 0)
     return refuse(scene, HR2D_EINVAL, patch, "a shield has no value: its net heat is 0");
@@ -39,8 +44,9 @@ static hr2d_status check_value(hr2d_scene *scene, const hr2d_patch *patch,
                   "emission and reflectance follow from what is given, and cannot be set");
   if (!isfinite(t->value))
     return refuse(scene, HR2D_ESCENE, patch,
-                  t->given == HR2D_HEAT_FLUX ? "flux is not finite"
-                                             : "temperature is not finite");
+                  t->given == HR2D_HEAT_POWER  ? "heat is not finite"
+                  : t->given == HR2D_HEAT_FLUX ? "flux is not finite"
+                                               : "temperature is not finite");
   if (t->given != HR2D_HEAT_TEMPERATURE) return HR2D_OK;
   if (t->value < 0)
     return refuse(scene, HR2D_ESCENE, patch,
@@ -108,7 +114,7 @@ static hr2d_status check_emissivity(hr2d_scene *scene, const hr2d_patch *patch,
       return refuse(scene, HR2D_ESCENE, patch, "emissivity is not between 0 and 1");
     if (e == 0 && t->given != HR2D_HEAT_TEMPERATURE)
       return refuse(scene, HR2D_ESCENE, patch,
-                    t->given == HR2D_HEAT_FLUX
+                    is_flux(t)
                         ? "emissivity is 0: with a flux its temperature would be unknown"
                         : "emissivity is 0: no heat passes such a shield; make it a wall");
   }
@@ -142,7 +148,7 @@ static double transmittance_of(const hr2d_patch *patch, size_t band) {
 
 static void set_light(const hr2d_scene *scene, const hr2d_thermal *t, double *value,
                       hr2d_patch *patch) {
-  const int flux = t->given == HR2D_HEAT_FLUX;
+  const int flux = is_flux(t);
   if (t->given == HR2D_HEAT_SHIELD) return;
   const size_t bands = flux ? 1 : hr2di_scene_spectral_bands(scene);
   double *rho = value + bands;
@@ -222,11 +228,27 @@ hr2d_heat hr2d_scene_heat(const hr2d_scene *scene, size_t patch, double *value) 
   return light->heat;
 }
 
+/* The lengths of patches may have changed since they were added. */
+static hr2d_status spread_power(hr2d_scene *scene) {
+  const size_t cell = hr2di_scene_cell(scene);
+  for (size_t k = 0; k < cell; k++) scene->patch[k].light->across = 0;
+  for (size_t k = 0; k < cell; k++)
+    hr2di_light_add_length(scene->patch[k].light, scene->patch[k].given);
+  for (size_t k = 0; k < cell; k++)
+    if (!isfinite(scene->patch[k].light->given))
+      return hr2di_message_fail(&scene->message, HR2D_ESCENE,
+                                "%s is too short for its heat: the flux is no double",
+                                hr2di_patch_label(scene, k).text);
+  return HR2D_OK;
+}
+
 /* The part of commit: bands are known now. */
 hr2d_status hr2di_scene_check_thermal(hr2d_scene *scene, hr2di_watch *watch) {
   const size_t bands = hr2di_scene_spectral_bands(scene);
-  const hr2d_status status = hr2di_watch_work(watch, scene->patches / 16);
+  hr2d_status status = hr2di_watch_work(watch, scene->patches / 8);
   if (status) return hr2di_scene_fail(scene, status, watch, "");
+  status = spread_power(scene);
+  if (status) return status;
   if (bands > 1 && scene->bands == 1) scene->bands = bands;
   if (bands > 1 && scene->bands != bands)
     return hr2di_message_fail(&scene->message, HR2D_ESCENE,

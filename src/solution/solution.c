@@ -172,6 +172,12 @@ double hr2d_solution_net_flux(const hr2d_solution *solution, size_t patch, size_
              hr2d_solution_irradiance(solution, hr2di_scene_other_side(scene, patch), band);
 }
 
+double hr2d_solution_net_power(const hr2d_solution *solution, size_t patch, size_t band) {
+  if (!hr2di_solution_has(solution, patch, band)) return NAN;
+  return hr2d_scene_length(hr2di_solution_scene(solution), patch) *
+         hr2d_solution_net_flux(solution, patch, band);
+}
+
 double hr2d_solution_power_cut_off(const hr2d_solution *solution, size_t band) {
   if (!solution || band >= solution->bands) return NAN;
   if (solution->power_cut_off) return solution->power_cut_off[band];

@@ -215,7 +215,10 @@ check "B - H of top" near "$(number net_flux 2)" -0.575479501950071 1e-5
 check "N of par0.1" grep -q '^  "elements": 4094,$' "$work/solve.json"
 check "L of par0.1" grep -q '^  "links": 246082,$' "$work/solve.json"
 check "CSV has a row for each leaf" [ "$(wc -l <"$work/solve.csv")" -eq 2049 ]
-check "CSV has its header" grep -qx 'patch,name,t0,t1,ax,ay,bx,by,B0,H0' "$work/solve.csv"
+check "Q is B - H times the length" awk -F, 'NR > 1 {
+    l = sqrt(($7 - $5)^2 + ($8 - $6)^2); d = $11 - ($9 - $10) * l
+    if (d^2 > 1e-28) bad = 1; n++ } END { exit bad || !n }' "$work/solve.csv"
+check "CSV has its header" grep -qx 'patch,name,t0,t1,ax,ay,bx,by,B0,H0,Q0' "$work/solve.csv"
 if command -v python3 >/dev/null 2>&1; then
   check "JSON is JSON" python3 -m json.tool "$work/solve.json" /dev/null
 fi
@@ -225,7 +228,7 @@ succeeds solve "$narrow" --json -
 check "JSON alone on standard output" [ "$(head -c 1 "$work/out")" = "{" ]
 check "no table beside it" lacks '^scene' "$work/out"
 succeeds solve "$scenes/lit-room.geojson" --csv -
-check "three bands" [ "$(head -n 1 "$work/out")" = "patch,name,t0,t1,ax,ay,bx,by,B0,B1,B2,H0,H1,H2" ]
+check "three bands" [ "$(head -n 1 "$work/out")" = "patch,name,t0,t1,ax,ay,bx,by,B0,B1,B2,H0,H1,H2,Q0,Q1,Q2" ]
 succeeds solve "$scenes/corner.geojson"
 check "the recursion limit is told" \
   grep -q 'recursion limit acted on [0-9]* links at level 24 (touching patches)' "$work/out"

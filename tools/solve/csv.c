@@ -87,6 +87,8 @@ static int write_leaf(void *ctx, const piece *p) {
             hr2d_scene_sunlight_over(w->run->scene, w->patch, p->t0, p->t1, b));
   for (size_t b = 0; b < w->bands; b++)
     for (size_t l = 1; l < w->order; l++) fprintf(w->stream, ",%.17g", w->b[b * w->order + l]);
+  for (size_t b = 0; b < w->bands; b++)
+    fprintf(w->stream, ",%.17g", unit * e->length * (w->b[b * w->order] - w->h[b]));
   if (w->heat) write_temperature(w, 0.5 * (p->t0 + p->t1), w->h[0]);
   return fputc('\n', w->stream) == EOF;
 }
@@ -98,6 +100,7 @@ static void write_header(const writer *w) {
   for (size_t b = 0; b < w->bands && w->sun; b++) fprintf(w->stream, ",S%zu", b);
   for (size_t b = 0; b < w->bands; b++)
     for (size_t l = 1; l < w->order; l++) fprintf(w->stream, ",B%zuc%zu", b, l);
+  for (size_t b = 0; b < w->bands; b++) fprintf(w->stream, ",Q%zu", b);
   if (w->heat) fputs(",T", w->stream);
   fputc('\n', w->stream);
 }

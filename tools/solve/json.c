@@ -51,6 +51,7 @@ static json_t *patches(const run *r) {
     json_put(&patch, "average", per_band(r, k, hr2d_solution_average));
     json_put(&patch, "irradiance", per_band(r, k, hr2d_solution_irradiance));
     json_put(&patch, "net_flux", per_band(r, k, hr2d_solution_net_flux));
+    json_put(&patch, "net_power", per_band(r, k, hr2d_solution_net_power));
     if (run_sun_exists(r->scene)) json_put(&patch, "sunlight", sunlight(r, k, -1));
     if (heat.exists && list) put_heat(&patch, &heat, k);
     json_push(&list, patch);

@@ -17,8 +17,9 @@ int solve_print(const run *r, double total_seconds);
 
 /* csv.c: a row for each leaf: patch,name,t0,t1,ax,ay,bx,by,B0,…,H0,…, with t0 and t1 fractions
    of the patch, and at an order p above 1
-   B0c1,…,B0c(p-1),B1c1,…: B = Σ c_l P_l(2s − 1) at fraction s of the leaf, c_0 = B0.  In a
-   scene with temperatures or fluxes the last column is T, of the average H. */
+   B0c1,…,B0c(p-1),B1c1,…: B = Σ c_l P_l(2s − 1) at fraction s of the leaf, c_0 = B0.  Then come
+   Q0,…, B − H times the length.  In a scene with temperatures or fluxes the last column is T,
+   of the average H. */
 int solve_write_csv(const run *r, const char *path);
 
 /* vtk.c: a line for each leaf, with B, H and T of it and of its patch. */

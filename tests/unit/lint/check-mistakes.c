@@ -162,7 +162,7 @@ static const mistake mistakes[] = {
     {"emissivity in percent", COLLECTION(ROOM("\"temperature\":300,\"emissivity\":90", SQUARE)),
      REFUSED, "must be between 0 and 1, not 90; 1 is 100 %"},
     /* 45 */
-    {"heat in other words", COLLECTION(LAMP "," ROOM("\"heat\":100", SQUARE)),
+    {"heat in other words", COLLECTION(LAMP "," ROOM("\"heat_flux\":100", SQUARE)),
      HR2D_WARNING_IGNORED, "write \"flux\", the net heat flux"},
     {"a closed room of fluxes", COLLECTION(ROOM("\"flux\":0", SQUARE)),
      HR2D_WARNING_NO_ABSORBER, "or a \"temperature\""},
@@ -273,7 +273,7 @@ static const mistake mistakes[] = {
                               "[[1,1],[2,1]]")),
      REFUSED, "are together above 1"},
     {"power in watts", COLLECTION(LAMP "," ROOM("\"power\":\"100 W\"", SQUARE)),
-     HR2D_WARNING_IGNORED, "\"power\" is not used: write \"emission\""},
+     HR2D_WARNING_IGNORED, "\"power\" is not used: write \"heat\""},
 };
 
 typedef struct hits {

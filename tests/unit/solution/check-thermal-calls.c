@@ -398,12 +398,116 @@ START_TEST(files_have_wavelengths) {
 }
 END_TEST
 
+/* A heater of power Q in a black room of temperature 500: the wall around it takes all of it.
+ */
+static hr2d_scene *heated_room(const char *heater) {
+  hr2d_scene *scene = test_new_scene(NULL);
+  char text[1024];
+  snprintf(text, sizeof text,
+           "{\"type\":\"FeatureCollection\",\"features\":["
+           "{\"type\":\"Feature\",\"properties\":{\"temperature\":500},\"geometry\":"
+           "{\"type\":\"LineString\",\"coordinates\":"
+           "[[0,0],[4,0],[4,3],[0,3],[0,0]]}},%s]}",
+           heater);
+  ck_assert_msg(!parse(scene, text), "%s", hr2d_scene_message(scene));
+  return scene;
+}
+
+#define HEATER(properties, points)                                                             \
+  "{\"type\":\"Feature\",\"properties\":{\"heat\":700,\"emissivity\":0.5" properties           \
+  "},\"geometry\":{\"type\":\"LineString\",\"coordinates\":" points "}}"
+
+#define BOTH ",\"sides\":\"both\""
+
+/* The heat of all patches from `first` on, and the largest flux among them. */
+static double heat_from(hr2d_scene *scene, size_t first, double *flux) {
+  hr2d_solution *solution = NULL;
+  hr2d_temperatures t = HR2D_TEMPERATURES_INIT;
+  double heat[16], sum = 0, other = 0;
+  t.heat = heat;
+  test_commit(scene);
+  ck_assert_uint_le(hr2d_scene_patches(scene), 16);
+  ck_assert_int_eq(hr2d_solve_to(scene, NULL, &solution, NULL), HR2D_OK);
+  ck_assert_int_eq(hr2d_solution_temperatures(solution, NULL, NULL, &t), HR2D_OK);
+  *flux = 0;
+  for (size_t k = 0; k < hr2d_scene_patches(scene); k++) {
+    double q;
+    if (k < first) {
+      other += heat[k];
+      continue;
+    }
+    sum += heat[k];
+    ck_assert_int_eq(hr2d_scene_heat(scene, k, &q), HR2D_HEAT_FLUX);
+    *flux = fmax(*flux, q);
+    ck_assert_double_eq_tol(hr2d_solution_net_power(solution, k, 0), heat[k], 1e-10);
+    ck_assert_double_eq(hr2d_scene_emission(scene, k, 0), q);
+  }
+  ck_assert_double_eq_tol(sum + other, 0, 1e-2);
+  hr2d_solution_destroy(solution);
+  hr2d_scene_destroy(scene);
+  return sum;
+}
+
+/* All patches of a feature, and both sides, have the heat together, after moving and cutting,
+   too. */
+START_TEST(a_heater_gives_its_power) {
+  double flux;
+  hr2d_scene *scene = heated_room(HEATER("", "[[1,1],[1,2],[2,2],[2,1],[1,1]]"));
+  ck_assert_double_eq_tol(heat_from(scene, 4, &flux), 700, 1e-10);
+  ck_assert_double_eq_tol(flux, 700. / 4, 1e-12);
+
+  scene = heated_room(HEATER(BOTH, "[[1,1],[3,1]]"));
+  ck_assert_double_eq_tol(heat_from(scene, 4, &flux), 700, 1e-10);
+  ck_assert_double_eq_tol(flux, 700. / 4, 1e-12);
+
+  /* Its end is moved to a post, and it is cut where it crosses a bar: pieces share the heat. */
+  hr2d_snap_report report;
+  scene = heated_room(HEATER(BOTH, "[[1,0.01],[1,1]]"));
+  ck_assert_int_eq(hr2d_scene_snap(scene, .02, &report), HR2D_OK);
+  ck_assert_uint_eq(report.ends + report.feet, 1);
+  const size_t walls = hr2d_scene_patches(scene) - 2;
+  ck_assert_double_eq_tol(heat_from(scene, walls, &flux), 700, 1e-10);
+  ck_assert_double_eq_tol(flux, 350, 1e-12);
+  size_t cuts;
+  scene = heated_room(HEATER(BOTH, "[[1,1],[3,1]]") "," HEATER(BOTH, "[[2.5,0.5],[2.5,2.5]]"));
+  ck_assert_int_eq(hr2d_scene_split_crossings(scene, &cuts), HR2D_OK);
+  ck_assert_uint_eq(hr2d_scene_patches(scene), 12);
+  ck_assert_double_eq_tol(heat_from(scene, 4, &flux), 1400, 1e-10);
+  ck_assert_double_eq_tol(flux, 175, 1e-12);
+}
+END_TEST
+
+/* A call has a patch, and its sides. */
+START_TEST(powers_are_given_by_calls) {
+  hr2d_scene *scene = test_new_scene(NULL);
+  double q;
+  ck_assert_int_eq(add(scene, side[0], HR2D_HEAT_POWER, NAN, ONE, 1), HR2D_ESCENE);
+  test_expect_message(scene, "heat is not finite");
+  ck_assert_int_eq(add(scene, side[0], HR2D_HEAT_POWER, 1, &(const double){0}, 1), HR2D_ESCENE);
+  const double tiny[4] = {0, 0, 1e-300, 0};
+  ck_assert_int_eq(add(scene, tiny, HR2D_HEAT_POWER, 1e10, ONE, 1), HR2D_OK);
+  ck_assert_int_eq(hr2d_scene_commit(scene), HR2D_ESCENE);
+  test_expect_message(scene, "too short for its heat");
+  hr2d_scene_destroy(scene);
+  scene = test_new_scene(NULL);
+  const double at[4] = {0, 0, 4, 0};
+  ck_assert_int_eq(add(scene, at, HR2D_HEAT_POWER, -20, ONE, 1), HR2D_OK);
+  ck_assert_int_eq(add(scene, side[2], HR2D_HEAT_POWER, 0, ONE, 1), HR2D_OK);
+  ck_assert_int_eq(hr2d_scene_heat(scene, 0, &q), HR2D_HEAT_FLUX);
+  ck_assert_double_eq(q, -5);
+  ck_assert_double_eq(hr2d_scene_reflectance(scene, 0, 0), 1);
+  ck_assert_int_eq(hr2d_scene_heat(scene, 1, &q), HR2D_HEAT_FLUX);
+  ck_assert_double_eq(q, 0);
+  hr2d_scene_destroy(scene);
+}
+END_TEST
+
 TEST_SUITE("thermal calls") {
   ADD_TESTS("calls", wrong_properties_are_refused, what_was_given_is_returned,
             wrong_wavelengths_are_refused, each_band_is_in_equilibrium,
             fluxes_alone_have_no_solution, who_loses_too_much_is_named,
             where_no_heat_arrives_nothing_is_known, the_call_checks_its_arguments,
-            pieces_keep_what_is_given);
+            pieces_keep_what_is_given, a_heater_gives_its_power, powers_are_given_by_calls);
   ADD_TESTS("files", files_have_thermal_properties, wrong_files_are_refused,
             files_have_wavelengths);
 }
