@@ -4,7 +4,7 @@ EXAMPLES = examples/adiabatic-walls examples/conduction examples/digits \
 	examples/fibre-bed examples/fit-emissivities examples/frame-cavity \
 	examples/furnace-section examples/heating-furnace examples/lamp-powers \
 	examples/own-oracle examples/paint-oven \
-	examples/resume examples/room-climate examples/shares examples/solar-panels \
+	examples/resume examples/room-climate examples/shares examples/sky-types examples/solar-panels \
 	examples/solar-year examples/street-canyon examples/streets examples/together examples/tour
 check_PROGRAMS += $(EXAMPLES)
 examples_adiabatic_walls_CPPFLAGS = $(PUBLIC_CPPFLAGS)
@@ -35,6 +35,8 @@ examples_room_climate_CPPFLAGS = $(PUBLIC_CPPFLAGS)
 examples_room_climate_LDADD = libhr2d.la -lm
 examples_shares_CPPFLAGS = $(PUBLIC_CPPFLAGS)
 examples_shares_LDADD = libhr2d.la -lm
+examples_sky_types_CPPFLAGS = $(PUBLIC_CPPFLAGS)
+examples_sky_types_LDADD = libhr2d.la
 examples_solar_panels_CPPFLAGS = $(PUBLIC_CPPFLAGS)
 examples_solar_panels_LDADD = libhr2d.la -lm
 examples_solar_year_CPPFLAGS = $(PUBLIC_CPPFLAGS)

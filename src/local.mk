@@ -6,6 +6,7 @@ libhr2d_core_la_CPPFLAGS = -DHR2D_BUILDING -D_POSIX_C_SOURCE=200809L $(PUBLIC_CP
 libhr2d_core_la_CFLAGS = $(AM_CFLAGS) $(THREADS_CFLAGS)
 libhr2d_core_la_LIBADD = $(GSL_LIBS) $(JANSSON_LIBS) -lm
 libhr2d_core_la_SOURCES = \
+	src/base/adaptive-gauss.c src/base/adaptive-gauss.h \
 	src/base/alloc.c src/base/alloc.h \
 	src/base/bin.h \
 	src/base/bickley.c src/base/bickley.h src/base/bickley-tables.h \
@@ -104,7 +105,10 @@ libhr2d_core_la_SOURCES = \
 	src/scene/frozen-temperatures.c src/scene/frozen-temperatures.h \
 	src/scene/side-layers.c src/scene/side-layers.h \
 	src/scene/side-parts.c src/scene/side-parts.h \
+	src/scene/continuous-sky.c \
 	src/scene/sky.c src/scene/sky.h \
+	src/scene/sky-model.c src/scene/sky-model.h src/scene/sky-radiance.c \
+	src/scene/sky-section.c \
 	src/scene/sky-arcs.c \
 	src/scene/spectrum.c src/scene/spectrum.h \
 	src/scene/sun.c \
@@ -127,6 +131,7 @@ libhr2d_core_la_SOURCES = \
 	src/formats/geojson-impl.h \
 	src/formats/geojson-meant.c src/formats/geojson-meant.h \
 	src/formats/geojson-name.c \
+	src/formats/geojson-sky.c \
 	src/formats/geojson-sun.c \
 	src/formats/geojson-medium.c \
 	src/formats/geojson-symmetry.c \

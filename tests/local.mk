@@ -89,6 +89,7 @@ SUITES = \
 	tests/unit/solve/check-gas-clusters.c \
 	tests/unit/solve/check-solve.c \
 	tests/unit/solve/check-background.c \
+	tests/unit/solve/check-continuous-sky.c \
 	tests/unit/solve/check-sky.c \
 	tests/unit/solve/check-sun.c \
 	tests/unit/solve/check-mirrors.c \

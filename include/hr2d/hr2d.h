@@ -30,6 +30,7 @@
  * More kinds of scenes:
  * - thermal.h: hr2d_scene_add_thermal() adds patches of given temperature or heat flux.
  * - daylight.h: hr2d_scene_set_sun() lights the scene by a sun.
+ * - sky.h: hr2d_scene_set_continuous_sky() lights the scene by a sky of CIE or Perez.
  * - symmetry.h: hr2d_scene_add_mirror() and hr2d_scene_set_period() repeat the scene.
  *
  * More light:
@@ -118,6 +119,7 @@
 #include <hr2d/progress.h>
 #include <hr2d/refine.h>
 #include <hr2d/scene.h>
+#include <hr2d/sky.h>
 #include <hr2d/solve.h>
 #include <hr2d/state.h>
 #include <hr2d/status.h>

@@ -97,7 +97,7 @@ class Scene:
 
     def __init__(self, background: Optional[Values] = None, *,
                  wavelengths: Optional[Values] = None, sun: Optional[Mapping[str, Any]] = None,
-                 sky: Optional[Sequence[Any]] = None,
+                 sky: Union[None, Mapping[str, Any], Sequence[Any]] = None,
                  background_temperature: Optional[float] = None):
         pointer = ffi.new("hr2d_scene **")
         with Call() as call:
@@ -205,12 +205,21 @@ class Scene:
         sun = {"irradiance": irradiance, "bearing": bearing, "direction": direction}
         self.add_text(outside_of({"sun": {k: v for k, v in sun.items() if v is not None}}))
 
-    def set_sky(self, pieces: Sequence[Any]) -> None:
+    def set_sky(self, sky: Union[Mapping[str, Any], Sequence[Any]]) -> None:
         """Sets the sky: pieces (from, to, radiosity), with bearings in degrees clockwise from +y.
 
-        A radiosity is one value, or one per band.  Other directions have the background.
+        A radiosity is one value, or one per band.  Other directions have the background.  In the
+        place of pieces, a mapping is a continuous sky, as "sky" of a scene file is one, and a
+        sequence of mappings has one per band.
+
+        >>> scene = square()
+        >>> scene.set_sky({"cie": 16, "irradiance": 100})
+        >>> scene.sky([0, 60, 120]).round(2).tolist()
+        [[115.61], [79.24], [0.0]]
         """
-        self.add_text(outside_of({"sky": [list(piece) for piece in pieces]}))
+        given: Any = dict(sky) if isinstance(sky, Mapping) else [
+            dict(one) if isinstance(one, Mapping) else list(one) for one in sky]
+        self.add_text(outside_of({"sky": given}))
 
     def set_medium(self, absorption: Values, *, temperature: Optional[float] = None,
                    flux: Optional[float] = None, emission: Optional[Values] = None,

@@ -84,6 +84,7 @@ def test_types(tmp_path):
 INSTEAD = """
 add() and add_file() pass all through the reader of scene files
 hr2d_gas_init hr2d_scene_add hr2d_scene_add_gas hr2d_scene_add_thermal hr2d_scene_read hr2d_scene_set_sky hr2d_scene_set_sun hr2d_patch_init
+hr2d_scene_set_continuous_sky hr2d_sky_cie hr2d_sky_perez hr2d_sky_clearness hr2d_sky_radiance hr2d_sky_init
 hr2d_thermal_init
 arrays of patches, elements and links
 hr2d_scene_segment hr2d_scene_length hr2d_element_level hr2d_element_parent hr2d_hierarchy_leaf

@@ -108,10 +108,11 @@ static void find_external_of(const fallback *s, size_t patch, double *light) {
   const double seen = fmax(1 - s->row[patch], 0);
   for (size_t m = 0; m < s->bands; m++) light[m] = hr2d_scene_background(scene, m);
   for (size_t k = 0; k < scene->sky.pieces; k++) {
-    hr2di_sines part[2];
-    const int parts = hr2di_sky_front(scene, patch, k, part);
-    const double factor = hr2di_sky_factor(part, parts, -1, 1);
-    for (size_t m = 0; m < s->bands; m++) light[m] += factor * hr2di_sky_beyond(scene, k, m);
+    hr2di_sky_front front;
+    hr2di_sky_front_of(scene, patch, k, &front);
+    for (size_t l = 0; l < scene->sky.terms; l++)
+      for (size_t m = 0; m < s->bands; m++)
+        light[m] += front.full[l] * hr2di_sky_beyond(scene, k * scene->sky.terms + l, m);
   }
   for (size_t m = 0; m < s->bands; m++)
     light[m] = seen * light[m] + hr2d_scene_sunlight(scene, patch, m);
@@ -121,7 +122,8 @@ static hr2d_status find_external(fallback *s) {
   hr2d_status status = HR2D_OK;
   if (!s->scene->effect[HR2D_EFFECT_BACKGROUND].on) return HR2D_OK;
   for (size_t k = 0; k < s->scene->patches && !status; k++) {
-    status = must(s, 1 + s->scene->sky.pieces + s->bands * (2 + s->scene->sky.pieces / 16));
+    status = must(s, 1 + 4 * hr2di_sky_rows(&s->scene->sky) +
+                         s->bands * (2 + hr2di_sky_rows(&s->scene->sky) / 16));
     if (!status) find_external_of(s, k, s->external + k * s->bands);
   }
   return status;

@@ -26,6 +26,10 @@ void hr2d_clusters_options_init(hr2d_clusters_options *options, size_t size) {
   set_defaults(options, size);
 }
 
+void hr2d_sky_init(hr2d_sky *sky, size_t size) {
+  set_defaults(sky, size);
+}
+
 void hr2d_lint_options_init(hr2d_lint_options *options, size_t size) {
   set_defaults(options, size);
 }

@@ -323,9 +323,9 @@ static hr2d_status add_suns(search *s, hr2d_point end) {
   hr2d_status status = HR2D_OK;
   for (size_t k = 0; k < scene->sun_bands && !status; k++)
     if (scene->sun[k].irradiance > 0) status = add_ray(s, end, scene->sun[k].direction);
-  for (size_t k = 0; k < scene->sky.pieces && !status; k++) {
-    status = add_edge(s, end, scene->sky.piece[k].from);
-    if (!status) status = add_edge(s, end, scene->sky.piece[k].to);
+  for (size_t k = 0; k < 2 * scene->sky.pieces && !status; k++) {
+    double bearing;
+    if (hr2di_sky_edge(scene, k, &bearing)) status = add_edge(s, end, bearing);
   }
   return status;
 }

@@ -180,9 +180,35 @@ static void add_suns(hr2di_light_sum *sum, const hr2di_polygon_arc *s) {
     if (hr2di_light_has_sun(sum->of, s->right, s->left, b)) hr2di_light_add_sun(sum, b);
 }
 
+/* The same, where the light is a polynomial of the bearing: at the nodes of a rule. */
+static void add_varying_arc(hr2di_light_sum *sum, size_t piece, double from, double angle) {
+  const hr2d_scene *scene = sum->of->scene;
+  const hr2d_sky_piece *p = &scene->sky.piece[piece];
+  const size_t terms = scene->sky.terms;
+  const hr2di_sky_terms *of = &scene->sky.of;
+  for (size_t q = 0; q < of->rule.points; q++) {
+    const double at = from + 0.5 * angle * (1 + of->rule.at[q]),
+                 part = of->rule.weight[q] * angle;
+    const double off = remainder(90 - at * (180 / HR2DI_PI) - 0.5 * (p->from + p->to), 360);
+    double phi[HR2DI_SKY_TERMS];
+    hr2di_basis_at(&of->basis, 2 * off / (p->to - p->from), phi);
+    for (size_t b = 0; b < sum->of->solution->bands; b++) {
+      double value = 0;
+      for (size_t l = 0; l < terms; l++)
+        value += phi[l] * hr2di_sky_beyond(scene, piece * terms + l, b);
+      hr2di_light_add_constant(sum, b, value, part,
+                               (hr2d_point){part * cos(at), part * sin(at)});
+    }
+  }
+}
+
 /* Adds an arc of the sky from an angle on, counterclockwise from +x. */
 static void add_arc(hr2di_light_sum *sum, size_t piece, double from, double angle) {
   const hr2d_scene *scene = sum->of->scene;
+  if (hr2di_sky_is_continuous(&scene->sky)) {
+    add_varying_arc(sum, piece, from, angle);
+    return;
+  }
   const hr2d_point right = {cos(from), sin(from)},
                    left = {cos(from + angle), sin(from + angle)};
   const hr2d_point vector = sum->flux ? hr2di_light_vector(right, left) : (hr2d_point){0, 0};

@@ -101,9 +101,9 @@ static int is_inside(hr2d_point right, hr2d_point left, hr2d_point d) {
 
 int hr2di_far_changes(const hr2d_scene *scene, hr2d_point right, hr2d_point left) {
   for (size_t k = 0; k < 2 * scene->sky.pieces; k++) {
-    const hr2d_sky_piece *p = &scene->sky.piece[k / 2];
-    const double bearing = k % 2 ? p->to : p->from;
-    if (!hr2di_symmetry_is_along(&scene->symmetry, bearing) &&
+    double bearing;
+    if (hr2di_sky_edge(scene, k, &bearing) &&
+        !hr2di_symmetry_is_along(&scene->symmetry, bearing) &&
         is_inside(right, left, hr2di_sky_direction(bearing)))
       return 1;
   }

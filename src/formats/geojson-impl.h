@@ -107,6 +107,10 @@ hr2d_status hr2di_geojson_spectrum(hr2di_geojson *reader, const json_t *members,
 hr2d_status hr2di_geojson_sky(hr2di_geojson *reader, const json_t *members);
 hr2d_status hr2di_geojson_sun(hr2di_geojson *reader, const json_t *members);
 
+/* Whether a member "sky" has no pieces, and reads it. */
+int hr2di_geojson_is_continuous_sky(const json_t *json);
+hr2d_status hr2di_geojson_continuous_sky(hr2di_geojson *reader, const json_t *json);
+
 /* Reads the gas from the member "hr2d", and gives it to the scene, which cannot fail. */
 hr2d_status hr2di_geojson_medium(hr2di_geojson *reader, const json_t *members);
 void hr2di_geojson_give_medium(hr2di_geojson *reader);

@@ -307,6 +307,32 @@ static void note_sun_member(hr2di_geojson *reader, const json_t *sun, const char
   note_unknown(reader, sun, key, &known);
 }
 
+static void note_sky_member(hr2di_geojson *reader, const json_t *sky, const char *key) {
+  static const char *const names[] = {"a",           "b",
+                                      "c",           "cie",
+                                      "d",           "disc",
+                                      "e",           "g",
+                                      "horizon",     "irradiance",
+                                      "perez",       "section_azimuth",
+                                      "sun_azimuth", "sun_elevation",
+                                      "tolerance",   "zenith"};
+  static const known_object known = {
+      "hr2d: sky", names, COUNT(names),
+      "members of a continuous \"sky\" are \"cie\" or \"perez\" or \"a\" to \"e\" and \"g\", "
+      "\"irradiance\" or \"zenith\", \"sun_elevation\", \"sun_azimuth\", \"section_azimuth\", "
+      "\"disc\", \"horizon\" and \"tolerance\""};
+  note_unknown(reader, sky, key, &known);
+}
+
+/* One sky, or one for each band. */
+static hr2d_status note_skies(hr2di_geojson *reader, const json_t *sky) {
+  hr2d_status status = json_is_object(sky) ? each(reader, sky, note_sky_member) : HR2D_OK;
+  for (size_t k = 0; k < json_array_size(sky) && !status; k++)
+    if (json_is_object(json_array_get(sky, k)))
+      status = each(reader, json_array_get(sky, k), note_sky_member);
+  return status;
+}
+
 static void note_medium_member(hr2di_geojson *reader, const json_t *medium, const char *key) {
   static const char *const names[] = {"absorption", "emission", "flux", "section",
                                       "temperature"};
@@ -342,6 +368,7 @@ hr2d_status hr2di_geojson_note_root(hr2di_geojson *reader, const json_t *root) {
   const json_t *scene = hr2di_geojson_member(root, "hr2d");
   if (!status) status = each(reader, scene, note_scene_member);
   if (!status) status = each(reader, hr2di_geojson_member(scene, "sun"), note_sun_member);
+  if (!status) status = note_skies(reader, hr2di_geojson_member(scene, "sky"));
   return status ? status
                 : each(reader, hr2di_geojson_member(scene, "medium"), note_medium_member);
 }

@@ -146,6 +146,7 @@ static hr2d_status read_pieces(hr2di_geojson *reader, const json_t *json) {
   hr2di_sky *sky = &reader->sky;
   hr2d_status status = HR2D_OK;
   sky->pieces = json_array_size(json);
+  sky->terms = 1;
   sky->bands = bands_of(json);
   sky->piece = hr2di_alloc(reader->alloc, sky->pieces, sizeof *sky->piece);
   sky->value = hr2di_alloc(reader->alloc, sky->pieces, sky->bands * sizeof *sky->value);
@@ -153,14 +154,13 @@ static hr2d_status read_pieces(hr2di_geojson *reader, const json_t *json) {
     return hr2di_message_fail(reader->message, HR2D_ENOMEM, "hr2d: out of memory");
   for (size_t k = 0; k < sky->pieces && !status; k++)
     status = read_piece(reader, json_array_get(json, k), k);
-  return status ? status
-                : hr2di_scene_check_sky(reader->scene, sky->piece, sky->pieces, sky->value,
-                                        sky->bands);
+  return status ? status : hr2di_scene_check_sky(reader->scene, sky);
 }
 
 hr2d_status hr2di_geojson_sky(hr2di_geojson *reader, const json_t *members) {
   const json_t *json = hr2di_geojson_member(members, "sky");
   if (!json) return HR2D_OK;
+  if (hr2di_geojson_is_continuous_sky(json)) return hr2di_geojson_continuous_sky(reader, json);
   if (!json_is_array(json) || json_array_size(json) == 0)
     return hr2di_message_fail(reader->message, HR2D_ESYNTAX,
                               "hr2d: sky: must be an array of [from, to, radiosity], not %s",

@@ -163,10 +163,15 @@ static hr2d_status check_sky(hr2d_operator *op, const hr2d_light *from) {
   if (hr2d_scene_mirrors(scene) > 0)
     return hr2di_message_fail(&op->message, HR2D_EINVAL,
                               "under mirrors the pieces of the sky stay as they are");
+  if (hr2di_sky_is_continuous(&scene->sky)) {
+    if (!from->sky.value) return HR2D_OK;
+    return hr2di_message_fail(&op->message, HR2D_EINVAL,
+                              "a continuous sky stays as it is: give the scene a sky for each "
+                              "band");
+  }
   for (size_t k = 0; k < 2 * scene->sky.pieces; k++) {
-    const hr2d_sky_piece *p = &scene->sky.piece[k / 2];
-    const double edge = k % 2 ? p->to : p->from;
-    double jump = 0;
+    double edge, jump = 0;
+    if (!hr2di_sky_edge(scene, k, &edge)) continue;
     for (size_t b = 0; b < scene->bands; b++)
       jump = fmax(jump, fabs(hr2d_scene_sky(scene, edge + BESIDE, b) -
                              hr2d_scene_sky(scene, edge - BESIDE, b)));

@@ -30,7 +30,8 @@ static void set_units(hr2d_operator *op, size_t first, size_t end) {
   for (size_t b = 0; b < relit->bands; b++) {
     relit->background[b] = 0;
     if (relit->sun) relit->sun[b].irradiance = 0;
-    for (size_t k = 0; k < relit->sky.pieces; k++) relit->sky.value[k * relit->bands + b] = 0;
+    for (size_t k = 0; k < hr2di_sky_rows(&relit->sky); k++)
+      relit->sky.value[k * relit->bands + b] = 0;
   }
 }
 

@@ -73,8 +73,13 @@ static hr2d_status forget_weights(hr2d_scene *scene, hr2di_watch *watch) {
 /* Past the ends of a period the sky is that of the horizon. */
 static hr2d_status check_far_sky(hr2d_scene *scene) {
   double bearing;
-  if (!hr2di_symmetry_cuts(&scene->symmetry) || !hr2di_sky_changes_past_ends(scene, &bearing))
-    return HR2D_OK;
+  if (!hr2di_symmetry_cuts(&scene->symmetry)) return HR2D_OK;
+  if (hr2di_sky_varies_past_ends(scene))
+    return hr2di_message_fail(
+        &scene->message, HR2D_EUNSUPPORTED,
+        "the continuous sky varies past the images of the period that are "
+        "taken: draw several cells without a period, or a sky in pieces");
+  if (!hr2di_sky_changes_past_ends(scene, &bearing)) return HR2D_OK;
   return hr2di_message_fail(&scene->message, HR2D_EUNSUPPORTED,
                             "a piece of the sky ends at a bearing of %g degrees, which is past "
                             "the images that are taken: draw several cells and a longer period",

@@ -99,9 +99,11 @@ static void analyse_background(hr2d_scene *scene) {
     if (!(background > 0)) continue;
     set(scene, HR2D_EFFECT_BACKGROUND, 1, "the surroundings send %g", background);
   }
-  for (size_t k = scene->sky.pieces * scene->sky.bands; k-- > 0;)
-    if (scene->sky.value[k] > 0)
-      set(scene, HR2D_EFFECT_BACKGROUND, 1, "a piece of the sky sends %g", scene->sky.value[k]);
+  for (size_t k = scene->sky.pieces * scene->sky.bands; k-- > 0;) {
+    const hr2di_sky *sky = &scene->sky;
+    const double mean = sky->value[k / sky->bands * sky->terms * sky->bands + k % sky->bands];
+    if (mean > 0) set(scene, HR2D_EFFECT_BACKGROUND, 1, "a piece of the sky sends %g", mean);
+  }
   if (scene->effect[HR2D_EFFECT_BACKGROUND].on && !scene->effect[HR2D_EFFECT_EMISSION].on)
     set(scene, HR2D_EFFECT_EMISSION, 1, "the surroundings send light in");
 }

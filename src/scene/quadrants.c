@@ -46,13 +46,37 @@ int hr2di_sky_changes_past_ends(const hr2d_scene *scene, double *bearing) {
   const double size = hypot(d.x, d.y);
   const double slope = (s->high - s->low) / (s->copies * size);
   for (size_t k = 0; k < 2 * scene->sky.pieces; k++) {
-    const hr2d_sky_piece *p = &scene->sky.piece[k / 2];
-    *bearing = k % 2 ? p->to : p->from;
+    if (!hr2di_sky_edge(scene, k, bearing)) continue;
     const hr2d_point e = hr2di_sky_direction(*bearing);
     if (!hr2di_symmetry_is_along(s, *bearing) &&
         fabs(e.x * d.y - e.y * d.x) < slope * fabs(e.x * d.x + e.y * d.y))
       return 1;
   }
+  return 0;
+}
+
+/* Places between the horizon and the slope under which patches see an end. */
+enum { PLACES = 9 };
+
+/* What a continuous sky may change there, as a part of its largest radiosity. */
+#define CHANGE 1e-12
+
+int hr2di_sky_varies_past_ends(const hr2d_scene *scene) {
+  const hr2di_symmetry *s = &scene->symmetry;
+  const hr2d_point d = s->by.period;
+  const double slope = (s->high - s->low) / (s->copies * hypot(d.x, d.y)),
+               most = atan(slope) * (180 / HR2DI_PI),
+               along = 90 - atan2(d.y, d.x) * (180 / HR2DI_PI);
+  if (!hr2di_sky_is_continuous(&scene->sky)) return 0;
+  for (size_t b = 0; b < scene->bands; b++)
+    for (int quadrant = 0; quadrant < 4; quadrant++) {
+      const double line = along + 180 * (quadrant / 2), side = quadrant % 2 ? 1 : -1;
+      const double horizon = hr2d_scene_sky(scene, line + side * BESIDE, b);
+      for (int k = 1; k <= PLACES; k++) {
+        const double here = hr2d_scene_sky(scene, line + side * most * k / PLACES, b);
+        if (!(fabs(here - horizon) <= CHANGE * hr2di_sky_max(scene, b))) return 1;
+      }
+    }
   return 0;
 }
 

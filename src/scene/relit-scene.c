@@ -44,12 +44,12 @@ static hr2d_status make_lights(hr2d_scene *made, const hr2d_scene *scene) {
 
 /* Room for background, suns and the sky, with a value for each band where there is any. */
 static hr2d_status make_outside(hr2d_scene *made, const hr2d_scene *scene) {
-  const size_t bands = made->bands, pieces = scene->sky.pieces;
+  const size_t bands = made->bands, rows = hr2di_sky_rows(&scene->sky);
   const hr2d_allocator *alloc = &scene->alloc;
   made->background = hr2di_alloc(alloc, bands, sizeof *made->background);
   if (scene->sun) made->sun = hr2di_alloc(alloc, bands, sizeof *made->sun);
-  if (pieces) made->sky.value = hr2di_alloc(alloc, pieces, bands * sizeof *made->sky.value);
-  if (!made->background || (scene->sun && !made->sun) || (pieces && !made->sky.value))
+  if (rows) made->sky.value = hr2di_alloc(alloc, rows, bands * sizeof *made->sky.value);
+  if (!made->background || (scene->sun && !made->sun) || (rows && !made->sky.value))
     return HR2D_ENOMEM;
   made->background_bands = made->sky.bands = bands;
   if (scene->sun) made->sun_bands = bands;
@@ -75,7 +75,7 @@ static void take_outside(hr2d_scene *relit, const hr2d_scene *scene, size_t band
   const size_t of = band_in(relit, scene, band);
   relit->background[band] = hr2d_scene_background(scene, of);
   if (scene->sun) relit->sun[band] = hr2d_scene_sun(scene, of);
-  for (size_t k = 0; k < sky->pieces; k++)
+  for (size_t k = 0; k < hr2di_sky_rows(sky); k++)
     relit->sky.value[k * relit->bands + band] =
         sky->value[k * sky->bands + (sky->bands == 1 ? 0 : of)];
 }
@@ -88,7 +88,7 @@ hr2d_status hr2di_relit_renew(hr2d_scene *relit, const hr2d_scene *scene, hr2di_
   }
   for (size_t b = 0; b < relit->bands && !status; b++) {
     take_outside(relit, scene, b);
-    status = hr2di_watch_work(watch, 1 + scene->sky.pieces / 8);
+    status = hr2di_watch_work(watch, 1 + hr2di_sky_rows(&scene->sky) / 8);
   }
   return status;
 }

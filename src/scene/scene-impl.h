@@ -173,8 +173,10 @@ static inline int hr2di_scene_has_sun(const hr2d_scene *scene) {
 
 /* Whether a piece of the sky has light. */
 static inline int hr2di_scene_has_sky(const hr2d_scene *scene) {
-  for (size_t k = 0; k < scene->sky.pieces * scene->sky.bands; k++)
-    if (scene->sky.value[k] > 0) return 1;
+  const hr2di_sky *sky = &scene->sky;
+  for (size_t k = 0; k < sky->pieces; k++)
+    for (size_t b = 0; b < sky->bands; b++)
+      if (sky->value[k * sky->terms * sky->bands + b] > 0) return 1;
   return 0;
 }
 

@@ -160,7 +160,8 @@ static int by_jump(const void *left, const void *right) {
   return (l->bearing > r->bearing) - (l->bearing < r->bearing);
 }
 
-/* The edges at which the sky jumps, those with the largest jumps first. */
+/* The edges at which the sky jumps, or a derivative of a continuous one, those with the largest
+ * jumps first. */
 static hr2d_status list_edges(const hr2d_scene *scene, sky_edge *edge, size_t *count,
                               double *max, hr2di_watch *watch) {
   const hr2di_sky *sky = &scene->sky;
@@ -171,9 +172,10 @@ static hr2d_status list_edges(const hr2d_scene *scene, sky_edge *edge, size_t *c
   }
   for (size_t k = 0; k < 2 * sky->pieces && !status; k++) {
     sky_edge *e = &edge[*count];
-    e->bearing = k % 2 ? sky->piece[k / 2].to : sky->piece[k / 2].from;
-    e->jump = hr2di_sky_jump(scene, e->bearing, max);
-    *count += e->jump > 0;
+    if (hr2di_sky_edge(scene, k, &e->bearing)) {
+      e->jump = hr2di_sky_jump(scene, e->bearing, max);
+      *count += e->jump > 0 || hr2di_sky_is_continuous(sky);
+    }
     status = hr2di_watch_work(watch, 2 + (sky->pieces + scene->bands) / 8);
   }
   return status ? status : hr2di_sort(edge, *count, sizeof *edge, by_jump, watch);

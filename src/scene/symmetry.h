@@ -178,6 +178,9 @@ int hr2di_symmetry_is_along(const hr2di_symmetry *s, double bearing);
  */
 int hr2di_sky_changes_past_ends(const struct hr2d_scene *scene, double *bearing);
 
+/* Whether a continuous sky is not constant there. */
+int hr2di_sky_varies_past_ends(const struct hr2d_scene *scene);
+
 /* The point, moved by periods to between the patches themselves. */
 hr2d_point hr2di_symmetry_home(const hr2di_symmetry *s, hr2d_point x);
 

@@ -273,14 +273,16 @@ static int is_at_edge(const hr2di_visible_interval *seen, const hr2di_edge *q) {
 /* Adds what the pieces of the sky send beyond the background. */
 static void add_sky(hr2di_gatherer *g, size_t patch, const hr2di_view_from *seen) {
   const hr2d_scene *scene = hr2di_solution_scene(g->solution);
+  const size_t terms = scene->sky.terms;
   for (size_t k = 0; k < scene->sky.pieces; k++) {
-    hr2di_sines part[2];
-    const int parts = hr2di_sky_front(scene, patch, k, part);
-    double factor = 0;
+    hr2di_sky_front front;
+    double factor[HR2DI_SKY_TERMS] = {0};
+    hr2di_sky_front_of(scene, patch, k, &front);
     for (size_t m = 0; m < seen->arcs; m++)
-      factor += hr2di_sky_factor(part, parts, seen->arc[m][0], seen->arc[m][1]);
-    for (size_t b = 0; b < g->solution->bands && factor > 0; b++)
-      g->value[b] += factor * hr2di_sky_beyond(scene, k, b);
+      hr2di_sky_add_factors(&scene->sky, &front, seen->arc[m][0], seen->arc[m][1], factor);
+    for (size_t l = 0; l < terms && factor[0] > 0; l++)
+      for (size_t b = 0; b < g->solution->bands; b++)
+        g->value[b] += factor[l] * hr2di_sky_beyond(scene, k * terms + l, b);
   }
 }
 

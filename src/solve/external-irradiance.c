@@ -106,16 +106,20 @@ typedef struct stargazer {
   hr2di_point_viewer *viewer;
   hr2di_basis basis;
   hr2di_rule rule;
-  double *factor; /* pieces × order: the coefficients of a leaf */
+  hr2di_sky_front *front; /* the pieces, as `patch` sees them */
+  size_t patch;
+  double *factor; /* rows of the sky × order: the coefficients of a leaf */
 } stargazer;
 
-/* The part of a piece that is past the ends of a period. */
-static double far_factor(const hr2d_scene *scene, size_t piece,
-                         const hr2di_periodic_tail *tail) {
-  double sum = 0;
-  for (int k = 0; k < HR2DI_SKIES; k++)
-    if (tail->sky[k] != 0 && hr2di_sky_has(scene, piece, tail->bearing[k])) sum += tail->sky[k];
-  return sum;
+/* Adds the part of a piece that is past the ends of a period. */
+static void add_far_factors(const hr2di_sky *sky, size_t piece, const hr2di_periodic_tail *tail,
+                            double *factor) {
+  double phi[HR2DI_SKY_TERMS];
+  for (int k = 0; k < HR2DI_SKIES; k++) {
+    if (tail->sky[k] == 0 || hr2di_sky_piece_at(sky, tail->bearing[k]) != piece) continue;
+    hr2di_sky_terms_at(sky, piece, tail->bearing[k], phi);
+    for (size_t l = 0; l < sky->terms; l++) factor[l] += tail->sky[k] * phi[l];
+  }
 }
 
 /* Adds what a point of the rule, fraction t of the patch, sees. */
@@ -128,14 +132,24 @@ static void add_view(stargazer *g, size_t patch, double t, const hr2di_view_from
   double phi[HR2D_MAX_ORDER];
   hr2di_basis_at(&g->basis, g->rule.at[point], phi);
   for (size_t k = 0; k < scene->sky.pieces; k++) {
-    hr2di_sines part[2];
-    const int parts = hr2di_sky_front(scene, patch, k, part);
-    double sum = far_factor(scene, k, &tail);
+    double sum[HR2DI_SKY_TERMS] = {0};
+    double *factor = g->factor + k * scene->sky.terms * order;
+    add_far_factors(&scene->sky, k, &tail, sum);
     for (size_t m = 0; m < seen->arcs; m++)
-      sum += hr2di_sky_factor(part, parts, seen->arc[m][0], seen->arc[m][1]);
-    for (size_t l = 0; l < order; l++)
-      g->factor[k * order + l] += g->rule.weight[point] * phi[l] * sum;
+      hr2di_sky_add_factors(&scene->sky, &g->front[k], seen->arc[m][0], seen->arc[m][1], sum);
+    for (size_t j = 0; j < scene->sky.terms && sum[0] != 0; j++)
+      for (size_t l = 0; l < order; l++)
+        factor[j * order + l] += g->rule.weight[point] * phi[l] * sum[j];
   }
+}
+
+/* Leaves of a patch follow each other. */
+static void look_from(stargazer *g, size_t patch) {
+  const hr2d_scene *scene = g->t->hierarchy->scene;
+  if (g->patch == patch) return;
+  g->patch = patch;
+  for (size_t k = 0; k < scene->sky.pieces; k++)
+    hr2di_sky_front_of(scene, patch, k, &g->front[k]);
 }
 
 static hr2d_status view_from_leaf(stargazer *g, size_t leaf) {
@@ -143,8 +157,9 @@ static hr2d_status view_from_leaf(stargazer *g, size_t leaf) {
   const hr2d_element *e = &h->element[g->t->leaf[leaf]];
   const double size = e->length / h->element[e->patch].length;
   const double from = hr2di_element_start(h, g->t->leaf[leaf]);
-  const size_t factors = h->scene->sky.pieces * g->basis.order;
-  hr2d_status status = HR2D_OK;
+  const size_t factors = hr2di_sky_rows(&h->scene->sky) * g->basis.order;
+  hr2d_status status = hr2di_watch_work(g->t->watch, hr2di_sky_rows(&h->scene->sky) / 4);
+  look_from(g, e->patch);
   for (size_t k = 0; k < factors; k++) g->factor[k] = 0;
   for (size_t q = 0; q < g->rule.points && !status; q++) {
     hr2di_view_from seen;
@@ -168,7 +183,7 @@ static int is_seen(const double *factor, size_t order) {
 static void add_leaf(const stargazer *g, size_t leaf, const int *exponent, double *field) {
   const hr2d_scene *scene = g->t->hierarchy->scene;
   const size_t order = g->basis.order, bands = g->t->bands;
-  for (size_t k = 0; k < scene->sky.pieces; k++)
+  for (size_t k = 0; k < hr2di_sky_rows(&scene->sky); k++)
     for (size_t b = 0; b < bands && is_seen(g->factor + k * order, order); b++) {
       const double beyond = ldexp(hr2di_sky_beyond(scene, k, b), -exponent[b]);
       for (size_t l = 0; l < order; l++)
@@ -178,19 +193,22 @@ static void add_leaf(const stargazer *g, size_t leaf, const int *exponent, doubl
 
 static hr2d_status add_pieces(const hr2di_transport *t, const int *exponent, double *field) {
   const hr2d_scene *scene = t->hierarchy->scene;
-  stargazer g = {.t = t};
+  const size_t rows = hr2di_sky_rows(&scene->sky);
+  stargazer g = {.t = t, .patch = scene->patches};
   hr2di_basis_init(&g.basis, t->order);
   hr2di_rule_init(&g.rule, t->order + MORE);
-  g.factor = hr2di_alloc(&t->alloc, scene->sky.pieces, t->order * sizeof *g.factor);
-  hr2d_status status = g.factor ? HR2D_OK : HR2D_ENOMEM;
+  g.front = hr2di_alloc(&t->alloc, scene->sky.pieces, sizeof *g.front);
+  g.factor = hr2di_alloc(&t->alloc, rows, t->order * sizeof *g.factor);
+  hr2d_status status = g.front && g.factor ? HR2D_OK : HR2D_ENOMEM;
   if (!status) status = hr2di_point_viewer_create(scene, &t->alloc, t->watch, &g.viewer);
   for (size_t k = 0; k < t->leaves && !status; k++) {
     if (hr2di_image_map_of(&t->image_map, t->leaf[k]) != t->leaf[k]) continue;
     status = view_from_leaf(&g, k);
     if (!status) add_leaf(&g, k, exponent, field);
-    if (!status) status = hr2di_watch_work(t->watch, scene->sky.pieces * t->width / 8);
+    if (!status) status = hr2di_watch_work(t->watch, rows * t->width / 8);
   }
   hr2di_point_viewer_destroy(g.viewer);
+  hr2di_alloc_free(&t->alloc, g.front);
   hr2di_alloc_free(&t->alloc, g.factor);
   return status;
 }

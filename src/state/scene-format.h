@@ -6,9 +6,11 @@
      effects that are forced, the bands of the background and the number of wavelengths, as
      words; with daylight or symmetry, for which the line is another one, the numbers of suns,
      of pieces of the sky and of bands of these as well; with symmetry, for which the line is a
-     third one, the number of mirrors; with panes all of these, and a fourth line;
-   - the background, the wavelengths, the suns, and the pieces with their values; with symmetry
-     the period and the mirrors;
+     third one, the number of mirrors; with panes all of these, and a fourth line; with a
+     continuous sky all of these and its terms, and a fifth line;
+   - the background, the wavelengths, the suns, and the pieces with their values, in a
+   continuous sky also whether they go on from the one before; with symmetry the period and the
+   mirrors;
    - per patch: whether it has the light of the one before, as a half word; if not, what heat is
      given, the bands of E, ρ and ε, with panes of τ, as words, the heat and their values; the
      ends; the length
@@ -23,12 +25,14 @@
 #define HR2DI_SCENE_DAY_TITLE      "libhr2d scene 2\n"
 #define HR2DI_SCENE_SYMMETRY_TITLE "libhr2d scene 3\n"
 #define HR2DI_SCENE_PANES_TITLE    "libhr2d scene 4\n"
+#define HR2DI_SCENE_SKY_TITLE      "libhr2d scene 5\n"
 
 enum {
   HR2DI_SCENE_TITLE_BYTES = sizeof HR2DI_SCENE_TITLE - 1,
   HR2DI_SCENE_HEAD_WORDS = 5,
   HR2DI_SCENE_DAY_WORDS = 3,
   HR2DI_SCENE_SYMMETRY_WORDS = 1,
+  HR2DI_SCENE_SKY_WORDS = 1,
   HR2DI_SCENE_SUN_DOUBLES = 3,
   HR2DI_SCENE_PERIOD_DOUBLES = 2,
   HR2DI_SCENE_MIRROR_DOUBLES = 4

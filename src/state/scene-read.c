@@ -156,23 +156,38 @@ static hr2d_status read_suns(loading *l, uint64_t count) {
   return status;
 }
 
-/* Of each piece its two bearings, and its values. */
-static hr2d_status read_sky(loading *l, uint64_t pieces, uint64_t bands) {
-  if (pieces == 0) return HR2D_OK;
-  if (pieces > HR2DI_SKY_PIECES || bands > UINT64_MAX / 32 / HR2DI_SKY_PIECES)
-    return damaged(l, "its sky");
-  hr2d_status status = read_values(l, pieces * (2 + bands));
-  if (status) return status;
-  const size_t count = (size_t)pieces, each = (size_t)bands + 2;
-  hr2d_sky_piece *piece = hr2di_alloc(&l->scene->alloc, count, sizeof *piece);
-  if (!piece) return out_of_memory(l);
-  for (size_t k = 0; k < count; k++) {
+/* Of each piece its two bearings, of a continuous sky whether it goes on, and its values. Moves
+   values to the front. */
+static void take_pieces(loading *l, hr2di_sky *sky) {
+  const size_t values = sky->terms * sky->bands, each = values + (sky->goes_on ? 3 : 2);
+  for (size_t k = 0; k < sky->pieces; k++) {
     const double *v = l->value + k * each;
-    piece[k] = (hr2d_sky_piece){v[0], v[1]};
-    for (size_t b = 0; b < each - 2; b++) l->value[k * (each - 2) + b] = v[2 + b];
+    sky->piece[k] = (hr2d_sky_piece){v[0], v[1]};
+    if (sky->goes_on) sky->goes_on[k] = v[2] != 0;
+    for (size_t m = 0; m < values; m++) l->value[k * values + m] = v[each - values + m];
   }
-  status = hr2d_scene_set_sky(l->scene, piece, count, l->value, (size_t)bands);
-  hr2di_alloc_free(&l->scene->alloc, piece);
+}
+
+static hr2d_status read_sky(loading *l, uint64_t pieces, uint64_t bands, uint64_t terms) {
+  const hr2d_allocator *alloc = &l->scene->alloc;
+  const int continuous = terms > 1;
+  if (pieces == 0) return HR2D_OK;
+  if (pieces > HR2DI_SKY_PIECES || terms < 1 || terms > HR2DI_SKY_TERMS ||
+      bands > UINT64_MAX / 32 / HR2DI_SKY_PIECES / HR2DI_SKY_TERMS)
+    return damaged(l, "its sky");
+  hr2d_status status = read_values(l, pieces * ((continuous ? 3 : 2) + terms * bands));
+  if (status) return status;
+  hr2di_sky sky = {.pieces = (size_t)pieces, .terms = (size_t)terms, .bands = (size_t)bands};
+  sky.piece = hr2di_alloc(alloc, sky.pieces, sizeof *sky.piece);
+  if (continuous) sky.goes_on = hr2di_alloc(alloc, sky.pieces, sizeof *sky.goes_on);
+  status = sky.piece && (!continuous || sky.goes_on) ? HR2D_OK : out_of_memory(l);
+  if (!status) {
+    take_pieces(l, &sky);
+    sky.value = l->value;
+    status = hr2di_scene_copy_sky(l->scene, &sky);
+    sky.value = NULL;
+  }
+  hr2di_sky_clear(&sky, alloc);
   return status;
 }
 
@@ -204,16 +219,18 @@ typedef struct head {
   uint64_t patches, bytes, forced, background_bands, wavelengths;
   uint64_t suns, sky_pieces, sky_bands; /* 0 without daylight */
   uint64_t mirrors;                     /* 0 without symmetry */
+  uint64_t sky_terms;                   /* 1 without a continuous sky */
 } head;
 
 /* The line that names the format: which one, from 0, or −1. */
 static int read_title(loading *l) {
   static const char *const titles[] = {HR2DI_SCENE_TITLE, HR2DI_SCENE_DAY_TITLE,
-                                       HR2DI_SCENE_SYMMETRY_TITLE, HR2DI_SCENE_PANES_TITLE};
+                                       HR2DI_SCENE_SYMMETRY_TITLE, HR2DI_SCENE_PANES_TITLE,
+                                       HR2DI_SCENE_SKY_TITLE};
   char title[HR2DI_SCENE_TITLE_BYTES];
   hr2di_reader_expect(&l->reader, HR2DI_SCENE_TITLE_BYTES + 8 * HR2DI_SCENE_HEAD_WORDS);
   hr2di_reader_text(&l->reader, title, HR2DI_SCENE_TITLE_BYTES);
-  for (int k = 0; k < 4 && !l->reader.status; k++)
+  for (int k = 0; k < 5 && !l->reader.status; k++)
     if (memcmp(title, titles[k], HR2DI_SCENE_TITLE_BYTES) == 0) return k;
   return -1;
 }
@@ -221,18 +238,19 @@ static int read_title(loading *l) {
 static hr2d_status read_head(loading *l, head *h) {
   hr2di_reader *r = &l->reader;
   const int format = read_title(l);
-  *h = (head){.symmetric = format >= 2};
-  l->panes = format == 3;
+  *h = (head){.symmetric = format >= 2, .sky_terms = 1};
+  l->panes = format >= 3;
   if (r->status) return r->status;
   if (format < 0)
     return hr2di_message_fail(&l->scene->message, HR2D_ESYNTAX,
                               "this is not a scene of hr2d_state_write_scene()");
-  uint64_t *const word[] = {&h->patches,          &h->bytes,       &h->forced,
-                            &h->background_bands, &h->wavelengths, &h->suns,
-                            &h->sky_pieces,       &h->sky_bands,   &h->mirrors};
+  uint64_t *const word[] = {&h->patches,     &h->bytes,    &h->forced,     &h->background_bands,
+                            &h->wavelengths, &h->suns,     &h->sky_pieces, &h->sky_bands,
+                            &h->mirrors,     &h->sky_terms};
   int words = HR2DI_SCENE_HEAD_WORDS;
   if (format > 0) words += HR2DI_SCENE_DAY_WORDS;
   if (format > 1) words += HR2DI_SCENE_SYMMETRY_WORDS;
+  if (format > 3) words += HR2DI_SCENE_SKY_WORDS;
   hr2di_reader_expect(r, 8 * (uint64_t)(words - HR2DI_SCENE_HEAD_WORDS));
   for (int k = 0; k < words; k++) *word[k] = hr2di_reader_word(r);
   if (r->status) return r->status;
@@ -248,7 +266,7 @@ static hr2d_status read_all(loading *l) {
   if (!status) status = read_background(l, h.background_bands);
   if (!status) status = read_wavelengths(l, h.wavelengths);
   if (!status) status = read_suns(l, h.suns);
-  if (!status) status = read_sky(l, h.sky_pieces, h.sky_bands);
+  if (!status) status = read_sky(l, h.sky_pieces, h.sky_bands, h.sky_terms);
   if (!status && h.symmetric) status = read_symmetry(l, h.mirrors);
   if (status) return status;
   for (uint64_t k = 0; k < h.patches && !status; k++) status = read_patch(l);

@@ -18,9 +18,11 @@ static size_t values_of(const hr2di_light *l) {
          l->transmittance_bands;
 }
 
-/* A transmittance of 0 is no pane, but a part of a light. */
+/* A transmittance of 0 is no pane, but a part of a light.  Beside a continuous sky there is
+   room for them in any case. */
 static int has_panes(const hr2d_scene *scene) {
   size_t k = 0;
+  if (hr2di_sky_is_continuous(&scene->sky)) return 1;
   while (k < hr2di_scene_cell(scene) && !scene->patch[k].light->transmittance_bands) k++;
   return k < hr2di_scene_cell(scene);
 }
@@ -40,7 +42,8 @@ static uint64_t count_bytes(const hr2d_scene *scene) {
   if (has_symmetry(scene))
     bytes += 8 * (HR2DI_SCENE_PERIOD_DOUBLES + HR2DI_SCENE_MIRROR_DOUBLES * (uint64_t)mirrors);
   bytes += 8 * HR2DI_SCENE_SUN_DOUBLES * (uint64_t)scene->sun_bands;
-  bytes += 8 * (uint64_t)scene->sky.pieces * (2 + scene->sky.bands);
+  bytes += 8 * ((uint64_t)scene->sky.pieces * (scene->sky.goes_on ? 3 : 2) +
+                hr2di_sky_rows(&scene->sky) * scene->sky.bands);
   for (size_t k = 0; k < hr2di_scene_cell(scene); k++) {
     const hr2di_patch *p = &scene->patch[k];
     bytes += 4 + 4 * 8 + 4 + strlen(p->name);
@@ -92,10 +95,11 @@ static uint64_t forced_effects(const hr2d_scene *scene) {
 }
 
 static const char *title_of(const hr2d_scene *scene) {
-  return has_panes(scene)      ? HR2DI_SCENE_PANES_TITLE
-         : has_symmetry(scene) ? HR2DI_SCENE_SYMMETRY_TITLE
-         : has_day(scene)      ? HR2DI_SCENE_DAY_TITLE
-                               : HR2DI_SCENE_TITLE;
+  return hr2di_sky_is_continuous(&scene->sky) ? HR2DI_SCENE_SKY_TITLE
+         : has_panes(scene)                   ? HR2DI_SCENE_PANES_TITLE
+         : has_symmetry(scene)                ? HR2DI_SCENE_SYMMETRY_TITLE
+         : has_day(scene)                     ? HR2DI_SCENE_DAY_TITLE
+                                              : HR2DI_SCENE_TITLE;
 }
 
 static void put_head(hr2di_writer *w, const hr2d_scene *scene) {
@@ -110,6 +114,7 @@ static void put_head(hr2di_writer *w, const hr2d_scene *scene) {
   hr2di_writer_word(w, scene->sky.pieces);
   hr2di_writer_word(w, scene->sky.bands);
   if (has_symmetry(scene)) hr2di_writer_word(w, scene->symmetry.mirrors);
+  if (hr2di_sky_is_continuous(&scene->sky)) hr2di_writer_word(w, scene->sky.terms);
 }
 
 static void put_symmetry(hr2di_writer *w, const hr2di_symmetry *s) {
@@ -132,8 +137,9 @@ static void put_lights(hr2di_writer *w, const hr2d_scene *scene) {
   for (size_t k = 0; k < sky->pieces; k++) {
     hr2di_writer_double(w, sky->piece[k].from);
     hr2di_writer_double(w, sky->piece[k].to);
-    for (size_t b = 0; b < sky->bands; b++)
-      hr2di_writer_double(w, sky->value[k * sky->bands + b]);
+    if (sky->goes_on) hr2di_writer_double(w, sky->goes_on[k]);
+    for (size_t m = 0; m < sky->terms * sky->bands; m++)
+      hr2di_writer_double(w, sky->value[k * sky->terms * sky->bands + m]);
   }
 }
 

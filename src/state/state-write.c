@@ -58,8 +58,10 @@ uint64_t hr2di_state_scene(const hr2d_scene *scene, hr2di_watch *watch) {
   for (size_t k = 0; k < scene->sky.pieces; k++) {
     hash = hr2di_hash_double(hash, scene->sky.piece[k].from);
     hash = hr2di_hash_double(hash, scene->sky.piece[k].to);
-    for (size_t b = 0; b < scene->sky.bands; b++)
-      hash = hr2di_hash_double(hash, scene->sky.value[k * scene->sky.bands + b]);
+    const size_t values = scene->sky.terms * scene->sky.bands;
+    for (size_t m = 0; m < values; m++)
+      hash = hr2di_hash_double(hash, scene->sky.value[k * values + m]);
+    if (scene->sky.goes_on) hash = hr2di_hash_double(hash, scene->sky.goes_on[k]);
   }
   if (scene->symmetry.motion) hash = add_images(hash, &scene->symmetry);
   return hr2di_scene_is_unsettled(scene) ? add_spectra(hash, scene) : hash;

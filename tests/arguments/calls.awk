@@ -25,7 +25,7 @@ BEGIN {
   good["operator_gradient.solution"] = "s->op_solution"
   good["operator_response.first"] = "0"; good["operator_response.columns"] = "1"
   good["double *"] = "s->number"; good["const double *"] = "s->half"; good["double"] = "0.5"
-  good["double (*)[2]"] = "s->part"; good["uint32_t *"] = "s->index"; good["size_t *"] = "&s->size"
+  good["int"] = "1"; good["double (*)[2]"] = "s->part"; good["uint32_t *"] = "s->index"; good["size_t *"] = "&s->size"
   good["size_t"] = "1"; good["uint64_t"] = "0"; good["uint32_t"] = "0"; good["unsigned"] = "1"
   good["const char *"] = "\"HR2D_OK\""; good["const char **"] = "&s->text"
   good["void *"] = "s"; good["hr2d_link *"] = "s->link"; good["const hr2d_link *"] = "s->link"
@@ -62,7 +62,7 @@ BEGIN {
   good["hierarchy_push.bands"] = "2"; good["black_body_part.to"] = "2"
   good["state_read.read"] = "read_state"; good["state_read_scene.read"] = "read_scene"
   good["exchange_area_occluded.occluder"] = good["exchange_area_past.occluder"] = "s->segment + 2"
-  good["scene_set_sky.pieces"] = "1"; good["scene_sunlit_parts.room"] = "4"
+  good["scene_set_sky.pieces"] = "1"; good["sky_perez.clearness"] = "1.5"; good["scene_sunlit_parts.room"] = "4"
   good["scene_sunlight_over.from"] = "0"; good["linkset_read.first"] = "0"
 
   # Pointers that may be NULL, by type or by "F.P".  A callback of progress may be missing.
@@ -77,7 +77,7 @@ BEGIN {
     "scene_heat.value|hierarchy_divide.child|leaf_sums.front|leaf_sums.back|" \
     "field_rows_visit.normal|const hr2d_enclose_options *|hr2d_enclosure_account *|" \
     "const hr2d_light *|operator_solve.start|operator_gradient.v|operator_gradient.w|" \
-    "enclosure_error.average|enclosure_error.irradiance", list, "|")
+    "sky_clearness.brightness|enclosure_error.average|enclosure_error.irradiance", list, "|")
   for (k = 1; k <= n; k++) optional[list[k]] = 1
   required["refine_count.counts"] = required["refine_visit.counts"] = 1
 
@@ -212,7 +212,7 @@ function parameter(f, type, n,    bare, value) {
   } else if (type in enumeration) {
     if ((f "." n) in any) { survived(n " = (" type ")77;"); survived(n " = (" type ")-1;") }
     else { refused(n " = (" type ")77;"); refused(n " = (" type ")-1;") }
-  } else if (type ~ /^(size_t|unsigned|uint32_t|uint64_t)$/) {
+  } else if (type ~ /^(int|size_t|unsigned|uint32_t|uint64_t)$/) {
     if (n in counts || (f "." n) in any) survived(n " = 0;")
     else { refused(n " = (" type ")-1;"); refused(n " = 77777;") }
     if (n == "order") { refused(n " = 0;"); refused(n " = 77;") }

@@ -195,6 +195,7 @@ static void make_structs(stage *s) {
   s->good_oracle = *hr2d_oracle_size();
   s->good_policy = *hr2d_policy_original();
   s->good_patch = (hr2d_patch){.a = {5, 5}, .b = {6, 5}};
+  s->good_sky = (hr2d_sky){.struct_size = sizeof s->good_sky, .irradiance = 1};
   s->good_thermal = (hr2d_thermal){
       .struct_size = sizeof s->good_thermal, .given = HR2D_HEAT_TEMPERATURE, .value = 300};
   s->good_gas = (hr2d_gas){.struct_size = sizeof s->good_gas,

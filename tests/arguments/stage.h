@@ -59,6 +59,7 @@ typedef struct stage {
   hr2d_policy good_policy;
   hr2d_patch good_patch;
   hr2d_thermal good_thermal;
+  hr2d_sky good_sky;
   hr2d_gas good_gas;
   hr2d_share good_share;
   hr2d_target good_target;

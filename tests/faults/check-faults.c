@@ -113,6 +113,16 @@ static hr2d_status set_sky(fault_stage *s, uint64_t *sum) {
   return fault_mix_stage(s, sum, hr2d_scene_set_sky(s->scene, piece, 2, value, 2));
 }
 
+static hr2d_status set_continuous_sky(fault_stage *s, uint64_t *sum) {
+  hr2d_sky sky = HR2D_SKY_INIT;
+  sky.irradiance = 1;
+  sky.sun_elevation = 40;
+  sky.tolerance = 1e-3;
+  hr2d_status status = hr2d_sky_cie(12, &sky);
+  if (!status) status = hr2d_scene_set_continuous_sky(s->scene, &sky, 1);
+  return fault_mix_stage(s, sum, status);
+}
+
 static hr2d_status set_sun(fault_stage *s, uint64_t *sum) {
   static const hr2d_sun suns[] = {{{1, -2}, 1}, {{0, 0}, 0}, {{-1, -1}, 2}};
   return fault_mix_stage(s, sum, hr2d_scene_set_sun(s->scene, suns, 3));
@@ -458,6 +468,8 @@ START_TEST(scenes) {
   PLAY("scene_set_background", {.depth = DEPTH_FILLED, .plan = PLAN_OPEN}, set_background,
        of_scene, 0);
   PLAY("scene_set_sky", {.depth = DEPTH_FILLED, .plan = PLAN_OPEN}, set_sky, of_scene, 0);
+  PLAY("scene_set_continuous_sky", {.depth = DEPTH_FILLED, .plan = PLAN_OPEN},
+       set_continuous_sky, of_scene, 0);
   PLAY("scene_set_sun", {.depth = DEPTH_FILLED, .plan = PLAN_OPEN}, set_sun, of_scene, 0);
   PLAY("scene_commit, sun", {.depth = DEPTH_FILLED, .plan = PLAN_PAIR}, commit_sunny, of_scene,
        0);

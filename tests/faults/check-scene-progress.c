@@ -321,11 +321,20 @@ static hr2d_status read_scene(stage *t) {
   return hr2d_state_read_scene(t->empty, get, t);
 }
 
+static hr2d_status set_sky(stage *t) {
+  hr2d_sky sky = HR2D_SKY_INIT;
+  sky.irradiance = 1;
+  sky.sun_elevation = 40;
+  ck_assert_int_eq(hr2d_sky_cie(12, &sky), HR2D_OK);
+  return hr2d_scene_set_continuous_sky(t->empty, &sky, 1);
+}
+
 /* What can take longer than 10 ms. */
 static const struct {
   const char *name;
   call_fn *call;
 } long_calls[] = {{"hr2d_scene_parse", parse},
+                  {"hr2d_scene_set_continuous_sky", set_sky},
                   {"hr2d_scene_split_crossings", split},
                   {"hr2d_scene_snap", snap},
                   {"hr2d_scene_commit", commit},
@@ -438,10 +447,10 @@ static const char *const short_calls[] = {
     /* one patch or value, or memory alone */
     "hr2d_scene_create", "hr2d_scene_add", "hr2d_scene_add_thermal", "hr2d_scene_add_gas",
     "hr2d_scene_add_mirror", "hr2d_scene_set_background", "hr2d_scene_set_period",
-    "hr2d_scene_set_sky", "hr2d_scene_set_sun", "hr2d_scene_set_wavelengths",
-    "hr2d_scene_set_weights", "hr2d_scene_force", "hr2d_scene_find", "hr2d_hierarchy_create",
-    "hr2d_hierarchy_divide", "hr2d_linkset_create", "hr2d_linkset_read", "hr2d_solution_adopt",
-    "hr2d_solution_temperatures",
+    "hr2d_scene_set_sky", "hr2d_sky_cie", "hr2d_sky_perez", "hr2d_scene_set_sun",
+    "hr2d_scene_set_wavelengths", "hr2d_scene_set_weights", "hr2d_scene_force",
+    "hr2d_scene_find", "hr2d_hierarchy_create", "hr2d_hierarchy_divide", "hr2d_linkset_create",
+    "hr2d_linkset_read", "hr2d_solution_adopt", "hr2d_solution_temperatures",
     /* steps over patches */
     "hr2d_enclosure_error", "hr2d_solution_gas",
     /* steps over elements, which ask when these are many more */

@@ -417,6 +417,72 @@ END_TEST
 #define WITH_SKY(sky)                                                                          \
   "{\"type\":\"FeatureCollection\",\"hr2d\":{\"sky\":" sky "},\"features\":[]}"
 
+#define NOON "\"sun_elevation\":40"
+
+/* A file has the sky of hr2d_scene_set_continuous_sky(), of an irradiance or a zenith. */
+START_TEST(skies_are_continuous) {
+  static const struct {
+    const char *text, *phrase;
+    hr2d_status status;
+  } bad[] = {
+      {WITH_SKY("{\"cie\":17}"), "from 1 to 16", HR2D_ESCENE},
+      {WITH_SKY("{\"cie\":1,\"perez\":{}}"), "both a type of CIE", HR2D_ESCENE},
+      {WITH_SKY("{\"perez\":{\"clearness\":2}}"), "perez: needs", HR2D_ESCENE},
+      {WITH_SKY("{\"perez\":3}"), "must be an object, not a number", HR2D_ESYNTAX},
+      {WITH_SKY("{\"sun_elevation\":80,\"perez\":{\"clearness\":1.3,\"brightness\":0}}"),
+       "a larger brightness", HR2D_ESCENE},
+      {WITH_SKY("{\"irradiance\":\"x\"}"), "must be a number, not a string", HR2D_ESYNTAX},
+      {WITH_SKY("{\"irradiance\":1,\"zenith\":1}"), "both an irradiance", HR2D_ESCENE},
+      {WITH_SKY("{\"irradiance\":-1}"), "an irradiance is no number", HR2D_ESCENE},
+      {WITH_SKY("{\"disc\":{\"irradiance\":1}}"), "the radius of the disc", HR2D_ESCENE},
+      {WITH_SKY("[{\"irradiance\":1},3]"), "an object for each band", HR2D_ESYNTAX},
+  };
+  for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
+    hr2d_scene *scene =
+        file_parsed(WITH_SKY("[{\"cie\":16,\"irradiance\":1},{\"irradiance\":7}]"));
+    ck_assert_int_eq(file_parse(scene, bad[k].text), bad[k].status);
+    test_expect_message(scene, bad[k].phrase);
+    ck_assert_double_eq_tol(hr2d_scene_sky(scene, 33, 1), 7, 1e-13);
+    ck_assert_double_eq(hr2d_scene_sky(scene, 180, 1), 0);
+    hr2d_scene_destroy(scene);
+  }
+  static const char *const same[] = {
+      WITH_SKY("{" NOON ",\"cie\":12,\"irradiance\":3,\"sun_azimuth\":200,"
+               "\"section_azimuth\":90,\"disc\":{\"irradiance\":2,\"radius\":5},"
+               "\"horizon\":{\"irradiance\":1,\"height\":6}}"),
+      WITH_SKY("{" NOON ",\"perez\":{\"diffuse\":100,\"direct\":500}}")};
+  for (int k = 0; k < 2; k++) {
+    hr2d_sky sky = HR2D_SKY_INIT;
+    double delta;
+    sky.sun_elevation = 40;
+    sky.irradiance = k ? 100 : 3;
+    if (k) {
+      const double clearness = hr2d_sky_clearness(100, 500, 1361, 40, &delta);
+      ck_assert_int_eq(hr2d_sky_perez(clearness, delta, &sky), HR2D_OK);
+    } else {
+      sky.sun_azimuth = 200;
+      sky.section_azimuth = 90;
+      sky.disc_irradiance = 2;
+      sky.disc_radius = 5;
+      sky.horizon_irradiance = 1;
+      sky.horizon_height = 6;
+      ck_assert_int_eq(hr2d_sky_cie(12, &sky), HR2D_OK);
+    }
+    hr2d_scene *scene = file_parsed(same[k]), *other = test_new_scene(NULL);
+    ck_assert_int_eq(hr2d_scene_set_continuous_sky(other, &sky, 1), HR2D_OK);
+    for (int bearing = -95; bearing <= 95; bearing += 10)
+      ck_assert_double_eq(hr2d_scene_sky(scene, bearing, 0), hr2d_scene_sky(other, bearing, 0));
+    hr2d_scene_destroy(scene);
+    hr2d_scene_destroy(other);
+  }
+  hr2d_scene *scene = file_parsed(WITH_SKY("{\"cie\":16,\"zenith\":9}"));
+  hr2d_scene *other = file_parsed(WITH_SKY("{\"cie\":16,\"irradiance\":21.991148575128552}"));
+  ck_assert_double_eq_tol(hr2d_scene_sky(scene, 50, 0), hr2d_scene_sky(other, 50, 0), 1e-12);
+  hr2d_scene_destroy(scene);
+  hr2d_scene_destroy(other);
+}
+END_TEST
+
 START_TEST(skies_are_pieces) {
   static const struct {
     const char *text, *phrase;
@@ -986,8 +1052,9 @@ TEST_SUITE("geojson") {
             what_says_nothing_adds_nothing, what_other_programs_write_is_read,
             a_name_of_any_kind_has_a_text, a_geometry_collection_is_its_parts,
             messages_say_which_part_of_a_collection, a_bare_feature_is_a_whole_scene,
-            skies_are_pieces, suns_have_directions_or_bearings, what_is_no_sun_is_refused,
-            the_background_is_that_of_the_last_file_that_has_one, coordinates_keep_every_bit);
+            skies_are_pieces, skies_are_continuous, suns_have_directions_or_bearings,
+            what_is_no_sun_is_refused, the_background_is_that_of_the_last_file_that_has_one,
+            coordinates_keep_every_bit);
   ADD_TESTS("rings", ring_order_does_not_matter, extreme_rings_have_an_inside,
             holes_face_the_inside_of_their_polygon);
   ADD_TESTS("refusals", every_malformed_file_is_refused_with_its_reason,

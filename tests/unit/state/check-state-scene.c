@@ -46,7 +46,13 @@ static hr2d_scene *make_motley_under(const hr2d_allocator *hooks, int sunny) {
   const hr2d_sky_piece piece[] = {{-90, 10}, {10, 80}};
   const double light[] = {1, 2, 3, 4, 5, 6};
   if (sunny) ck_assert_int_eq(hr2d_scene_set_sun(scene, suns, 3), HR2D_OK);
-  if (sunny) ck_assert_int_eq(hr2d_scene_set_sky(scene, piece, 2, light, 3), HR2D_OK);
+  if (sunny == 1) ck_assert_int_eq(hr2d_scene_set_sky(scene, piece, 2, light, 3), HR2D_OK);
+  hr2d_sky clear = HR2D_SKY_INIT;
+  clear.irradiance = 2;
+  clear.sun_elevation = 30;
+  clear.tolerance = 1e-4;
+  ck_assert_int_eq(hr2d_sky_cie(12, &clear), HR2D_OK);
+  if (sunny == 2) ck_assert_int_eq(hr2d_scene_set_continuous_sky(scene, &clear, 1), HR2D_OK);
   ck_assert_int_eq(hr2d_scene_force(scene, HR2D_EFFECT_FACING), HR2D_OK);
   test_commit(scene);
   return scene;
@@ -194,8 +200,8 @@ START_TEST(what_is_read_has_the_same_bits) {
   hr2d_scene *one = _i < SLOW_KINDS       ? make_slow((slow_kind)_i)
                     : _i == SLOW_KINDS    ? make_motley(NULL)
                     : _i < SLOW_KINDS + 3 ? make_thermal(_i - SLOW_KINDS - 1)
-                    : _i < SLOW_KINDS + 4 ? make_motley_under(NULL, 1)
-                                          : make_symmetric(_i - SLOW_KINDS - 4);
+                    : _i < SLOW_KINDS + 5 ? make_motley_under(NULL, _i - SLOW_KINDS - 2)
+                                          : make_symmetric(_i - SLOW_KINDS - 5);
   hr2d_scene *other;
   tape t = write_tape(one);
   ck_assert_int_eq(read_tape(&t, NULL, &other), HR2D_OK);
@@ -232,8 +238,8 @@ END_TEST
 /* Each byte changed, and each length. */
 START_TEST(damage_is_found) {
   hr2d_scene *one = _i == 0   ? make_slow(SLOW_COMB)
-                    : _i == 1 ? make_motley_under(NULL, 1)
-                              : make_symmetric(_i - 2);
+                    : _i <= 2 ? make_motley_under(NULL, _i)
+                              : make_symmetric(_i - 3);
   hr2d_scene *other;
   tape t = write_tape(one);
   const size_t size = t.size;
@@ -310,7 +316,7 @@ START_TEST(callbacks_may_fail) {
 END_TEST
 
 START_TEST(any_allocation_may_fail) {
-  hr2d_scene *one = _i ? make_symmetric(_i) : make_motley_under(NULL, 1);
+  hr2d_scene *one = _i > 1 ? make_symmetric(_i) : make_motley_under(NULL, 1 + _i);
   tape t = write_tape(one);
   long failures = 1;
   for (long k = 0; failures; k++) {
@@ -389,8 +395,8 @@ START_TEST(names_are_utf8) {
 END_TEST
 
 TEST_SUITE("state-scene") {
-  REPEAT_TESTS(SLOW_KINDS + 4 + SYMMETRIC, "bits", what_is_read_has_the_same_bits);
-  REPEAT_TESTS(2 + SYMMETRIC, "damage", damage_is_found);
+  REPEAT_TESTS(SLOW_KINDS + 5 + SYMMETRIC, "bits", what_is_read_has_the_same_bits);
+  REPEAT_TESTS(3 + SYMMETRIC, "damage", damage_is_found);
   REPEAT_TESTS(SYMMETRIC, "memory", any_allocation_may_fail);
   ADD_TESTS("all", lights_stay_shared, claims_take_no_memory, callbacks_may_fail,
             only_an_empty_scene_is_read_into, names_are_utf8);
