@@ -14,6 +14,8 @@ AS_IF([test "x$enable_hardening" = xno], [hr2d_hardening=no],
   [hr2d_hardening="no: sanitizers, fuzzers or coverage"])
 AS_IF([test -z "$hr2d_hardening"],
   [for hr2d_flag in -fstack-protector-strong -fstack-clash-protection -fcf-protection; do
+     # gcc for Windows ends with an internal error in functions with long frames.
+     AS_CASE([$host_os,$hr2d_flag], [mingw*,-fstack-clash-protection], [continue])
      AX_CHECK_LINK_FLAG([$hr2d_flag],
        [AS_VAR_APPEND([HR2D_HARDENING], [" $hr2d_flag"])], [], [-Werror])
    done

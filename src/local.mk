@@ -13,6 +13,7 @@ libhr2d_core_la_SOURCES = \
 	src/base/black-body.c src/base/black-body.h \
 	src/base/choices.h \
 	src/base/clock.h \
+	src/base/c-locale.c src/base/c-locale.h \
 	src/base/constants.c \
 	src/base/krylov.c src/base/krylov.h \
 	src/base/large-pages.c src/base/large-pages.h \

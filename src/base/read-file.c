@@ -15,6 +15,12 @@
 
 enum { FIRST_BLOCK = 16384, MOST_AT_ONCE = 1 << 19 };
 
+/* strerror() is not thread-safe, and strerror_r() has two signatures, but none on Windows. */
+#ifdef _WIN32
+static const char *reason_of(int error, char *buffer, size_t room) {
+  return strerror_s(buffer, room, error) ? "unknown error" : buffer;
+}
+#else
 static const char *posix_reason(int failed, const char *buffer) {
   return failed ? "unknown error" : buffer;
 }
@@ -24,14 +30,16 @@ static const char *gnu_reason(const char *text, const char *buffer) {
   return text;
 }
 
-/* strerror() is not thread-safe, and strerror_r() has two signatures. */
+static const char *reason_of(int error, char *buffer, size_t room) {
+  return _Generic(strerror_r(error, buffer, room), int: posix_reason, char *: gnu_reason)(
+      strerror_r(error, buffer, room), buffer);
+}
+#endif
+
 static hr2d_status fail_errno(hr2di_message *message, const char *what, int error) {
   char buffer[128];
-  const char *reason = _Generic(strerror_r(error, buffer, sizeof buffer),
-      int: posix_reason,
-      char *: gnu_reason)(strerror_r(error, buffer, sizeof buffer), buffer);
   return hr2di_message_fail(message, error == ENOMEM ? HR2D_ENOMEM : HR2D_EIO, "%s: %s", what,
-                            reason);
+                            reason_of(error, buffer, sizeof buffer));
 }
 
 static hr2d_status read_stream(const hr2d_allocator *alloc, FILE *stream, char **text,

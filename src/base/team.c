@@ -27,9 +27,19 @@ typedef struct team {
   atomic_size_t busy; /* threads that may still work */
 } team;
 
+#ifdef HR2D_THREADS
+static long processors(void) {
+#ifdef _WIN32
+  return pthread_num_processors_np();
+#else
+  return sysconf(_SC_NPROCESSORS_ONLN);
+#endif
+}
+#endif
+
 size_t hr2di_team_threads(unsigned asked) {
 #ifdef HR2D_THREADS
-  const long all = asked == HR2D_ALL_THREADS ? sysconf(_SC_NPROCESSORS_ONLN) : 0;
+  const long all = asked == HR2D_ALL_THREADS ? processors() : 0;
   const size_t count = asked == HR2D_ALL_THREADS ? (all > 0 ? (size_t)all : 1) : asked;
   return count < 1 ? 1 : count < MOST_THREADS ? count : MOST_THREADS;
 #else

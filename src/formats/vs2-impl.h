@@ -6,9 +6,9 @@
 #include <hr2d/geometry.h>
 #include <hr2d/memory.h>
 #include <hr2d/scene.h>
-#include <locale.h>
 #include <stddef.h>
 
+#include "base/c-locale.h"
 #include "base/message.h"
 #include "base/watch.h"
 
@@ -30,8 +30,8 @@ typedef struct hr2di_vs2 {
   const hr2d_allocator *alloc;
   hr2di_message *message;
   hr2di_watch *watch;
-  locale_t numbers; /* a locale whose decimal sign is a point */
-  size_t line;      /* the number of the current line, from 1 */
+  hr2di_c_locale numbers;
+  size_t line; /* the number of the current line, from 1 */
 
   char *word; /* the current field, terminated */
   size_t word_capacity;

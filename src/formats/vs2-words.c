@@ -56,11 +56,8 @@ hr2d_status hr2di_vs2_number(hr2di_vs2 *reader, hr2di_vs2_span *line, const char
                              double *value) {
   hr2d_status status = hr2di_vs2_field(reader, line, what);
   if (status) return status;
-  const char *word = reader->word;
-  char *end;
-  const locale_t former = uselocale(reader->numbers);
-  *value = strtod(word, &end);
-  uselocale(former);
+  char *word = reader->word, *end;
+  *value = hr2di_c_locale_strtod(reader->numbers, word, &end);
   /* strtod() also accepts words and hexadecimal digits, which the format does not have. */
   if (end == word || *end || word[strspn(word, "0123456789+-.eE")])
     return hr2di_message_fail(reader->message, HR2D_ESYNTAX,

@@ -192,12 +192,10 @@ hr2d_status hr2di_vs2_read(hr2d_scene *scene, const char *text, size_t size,
                       .alloc = hr2di_scene_allocator(scene),
                       .message = hr2di_scene_message(scene),
                       .watch = watch};
-  /* Set for this thread alone, and only around strtod(): other code may print meanwhile. */
-  reader.numbers = newlocale(LC_NUMERIC_MASK, "C", (locale_t)0);
-  if (!reader.numbers)
+  if (hr2di_c_locale_create(&reader.numbers))
     return hr2di_message_fail(reader.message, HR2D_ENOMEM, "out of memory for a locale");
   const hr2d_status status = read_records(&reader, (hr2di_vs2_span){text, text + size});
-  freelocale(reader.numbers);
+  hr2di_c_locale_destroy(reader.numbers);
   hr2di_alloc_free(reader.alloc, reader.word);
   hr2di_alloc_free(reader.alloc, reader.vertex);
   return status;
