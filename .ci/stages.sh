@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # shellcheck shell=bash
-# What .ci/run and .ci/deep have in common; both begin at the top of the tree.
+# What .ci/run, .ci/deep and .ci/machine have in common; they begin at the top of the tree.
 jobs=$(nproc)
 passed=0
 times=()
@@ -15,7 +15,7 @@ finish() {
 # stage TITLE COMMAND...: if the command's last line counts checks, these are added
 # up, else the stage counts as one.
 stage() {
-  local title=$1 log=build-ci.log status=0 last start=$SECONDS aside_took=
+  local title=$1 log=build-ci-$$.log status=0 last start=$SECONDS aside_took=
   shift
   echo "=== $title"
   TIMEFORMAT="--- $title: %0R s, of processors %0U s and %0S s for the system"

@@ -386,10 +386,13 @@ TAKES_LONGEST = tests/threads/check-team
 MEMCHECK = $(VALGRIND) --quiet --error-exitcode=9 --leak-check=full \
 	--errors-for-leak-kinds=definite,indirect
 check-valgrind:
+	$(MAKE) check-under RUNNER='$(MEMCHECK)'
+# Under any program that runs others, ten times as slowly.
+check-under:
 	CK_FORK=no CK_DEFAULT_TIMEOUT=0 \
 	HR2D_TEST_MULTIPLIER="$${HR2D_TEST_MULTIPLIER-0.01}" \
-	$(MAKE) check LOG_COMPILER='$(MEMCHECK)' SUITE_RUNNER='$(MEMCHECK)' \
-	TESTS='$(TAKES_LONGEST) $(filter-out $(TAKES_LONGEST) $(TOO_LONG),$(SUITES) $(REPLACING))'
+	$(MAKE) check LOG_COMPILER='$(RUNNER)' SUITE_RUNNER='$(RUNNER)' \
+	TESTS='$(TAKES_LONGEST) $(filter-out $(TAKES_LONGEST) $(TOO_LONG) $(LEFT_OUT),$(SUITES) $(REPLACING))'
 
 # Scripts about texts, names and digits, in which sanitizers have nothing to find.
 PAPERWORK = tests/docs/check-docs.sh tests/program/check-completion.sh tests/program/check-help.sh tests/program/check-digits.sh \
@@ -417,7 +420,7 @@ check-hostile:
 # All compilers, levels of optimisation and sanitizers; takes an hour.
 check-matrix:
 	$(SHELL) $(srcdir)/tests/matrix.sh
-.PHONY: check-valgrind check-sanitized check-hostile check-matrix
+.PHONY: check-valgrind check-under check-sanitized check-hostile check-matrix
 
 # The table of doc/hard-cases.md, measured by the suites of hard cases.
 HARD = $(filter tests/hard/%,$(SUITES))
@@ -459,7 +462,7 @@ installcheck-local:
 
 EXTRA_DIST += $(OUTSIDE) tests/docs/blocks.awk tests/docs/compare.awk tests/docs/pages.sh tests/package/python.sh \
 	tests/package/recipes.py \
-	tests/digits.sh tests/lsan.supp tests/matrix.sh tests/summary.sh \
+	tests/digits.sh tests/lsan.supp tests/same-libm.c tests/matrix.sh tests/summary.sh \
 	tests/data tests/program/cli tests/program/pfm.py tests/program/schemas.py tests/program/vti.py tests/program/vtp.py tests/threads/race.c \
 	tests/package/consumer/main.c \
 	tests/package/consumer/main.cpp tests/package/consumer/run.sh \
