@@ -58,8 +58,9 @@ int hr2di_sky_changes_past_ends(const hr2d_scene *scene, double *bearing) {
 /* Places between the horizon and the slope under which patches see an end. */
 enum { PLACES = 9 };
 
-/* What a continuous sky may change there, as a part of its largest radiosity. */
-#define CHANGE 1e-12
+/* What a continuous sky may change of H there, as a part of its largest radiosity: both ends
+   take up to the slope of a form factor. */
+#define CHANGE 1e-11
 
 int hr2di_sky_varies_past_ends(const hr2d_scene *scene) {
   const hr2di_symmetry *s = &scene->symmetry;
@@ -74,7 +75,7 @@ int hr2di_sky_varies_past_ends(const hr2d_scene *scene) {
       const double horizon = hr2d_scene_sky(scene, line + side * BESIDE, b);
       for (int k = 1; k <= PLACES; k++) {
         const double here = hr2d_scene_sky(scene, line + side * most * k / PLACES, b);
-        if (!(fabs(here - horizon) <= CHANGE * hr2di_sky_max(scene, b))) return 1;
+        if (!(slope * fabs(here - horizon) <= CHANGE * hr2di_sky_max(scene, b))) return 1;
       }
     }
   return 0;

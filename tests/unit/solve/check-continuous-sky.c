@@ -5,6 +5,7 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_integration.h>
 #include <math.h>
+#include <string.h>
 
 #include "support/support.h"
 
@@ -428,6 +429,84 @@ START_TEST(bands_have_their_skies) {
 }
 END_TEST
 
+/* Under a period whose images are cut off, only a sky that is constant at the horizon. */
+START_TEST(skies_past_images_are_refused) {
+  for (int k = 0; k < 3; k++) {
+    hr2d_scene *scene = test_new_scene(NULL);
+    const hr2d_segment ground = {{0, 0}, {1, 0}}, plate = {{.2, .5}, {.4, .5}};
+    ck_assert_int_eq(test_add_patch(scene, ground, 0, .5, HR2D_SIDES_FRONT), HR2D_OK);
+    ck_assert_int_eq(test_add_patch(scene, plate, 0, .5, HR2D_SIDES_BOTH), HR2D_OK);
+    ck_assert_int_eq(hr2d_scene_set_period(scene, (hr2d_point){1, 0}), HR2D_OK);
+    set_sky(scene, cie(k == 0 ? 12 : k == 1 ? 1 : 5, 35, 40));
+    ck_assert_int_eq(hr2d_scene_commit(scene), k == 0 ? HR2D_EUNSUPPORTED : HR2D_OK);
+    if (k == 0)
+      ck_assert_ptr_nonnull(strstr(hr2d_scene_message(scene), "continuous sky varies"));
+    hr2d_scene_destroy(scene);
+  }
+}
+END_TEST
+
+/* A mirror along +y needs the sun in the plane of it, or none. */
+START_TEST(mirrors_need_symmetric_skies) {
+  static const hr2d_segment mirror = {{1, 0}, {1, 1}}, half = {{0, 0}, {1, 0}},
+                            whole = {{0, 0}, {2, 0}};
+  for (int k = 0; k < 2; k++) {
+    double h[2];
+    for (int halves = 0; halves < 2; halves++) {
+      hr2d_scene *scene = test_new_scene(NULL);
+      hr2d_account account;
+      const hr2d_segment wall = {{0, 2}, {0, 0}}, other = {{2, 0}, {2, 2}};
+      test_add_patch(scene, halves ? half : whole, 0, .5, HR2D_SIDES_FRONT);
+      test_add_patch(scene, wall, 0, .5, HR2D_SIDES_FRONT);
+      if (!halves) test_add_patch(scene, other, 0, .5, HR2D_SIDES_FRONT);
+      if (halves) ck_assert_int_eq(hr2d_scene_add_mirror(scene, mirror), HR2D_OK);
+      set_sky(scene, cie(12, 35, k ? 40 : 0)); /* +x is in the azimuth 90 */
+      if (k && halves) {
+        ck_assert_int_eq(hr2d_scene_commit(scene), HR2D_ESCENE);
+        h[1] = h[0];
+      } else {
+        hr2d_solution *solution = solve(scene, 1e-9, &account);
+        h[halves] = hr2d_solution_irradiance(solution, 0, 0);
+        hr2d_solution_destroy(solution);
+      }
+      hr2d_scene_destroy(scene);
+    }
+    ck_assert_double_eq_tol(h[1], h[0], 1e-8);
+  }
+}
+END_TEST
+
+/* An operator keeps it. */
+START_TEST(operators_keep_the_sky) {
+  hr2d_scene *scene = street(.5);
+  hr2d_operator *op = NULL;
+  hr2d_solution *solution = NULL, *own;
+  hr2d_target target = HR2D_TARGET_INIT;
+  hr2d_light light = HR2D_LIGHT_INIT;
+  hr2d_account account;
+  static const double value[720] = {1}, emission[3] = {2, 2, 2};
+  set_sky(scene, cie(12, 35, 40));
+  own = solve(scene, 1e-8, &account);
+  target.error = 1e-8;
+  ck_assert_int_eq(hr2d_operator_create(scene, &target, &op, NULL), HR2D_OK);
+  ck_assert_int_eq(hr2d_operator_solve(op, NULL, NULL, &solution, NULL), HR2D_OK);
+  ck_assert_double_eq_tol(hr2d_solution_average(solution, 0, 0),
+                          hr2d_solution_average(own, 0, 0), 1e-8);
+  hr2d_solution_destroy(solution);
+  solution = NULL;
+  light.sky.value = value;
+  ck_assert_int_eq(hr2d_operator_solve(op, &light, NULL, &solution, NULL), HR2D_EINVAL);
+  light.sky.value = NULL;
+  light.emission.value = emission;
+  ck_assert_int_eq(hr2d_operator_solve(op, &light, NULL, &solution, NULL), HR2D_OK);
+  ck_assert_double_gt(hr2d_solution_average(solution, 0, 0), 2);
+  hr2d_solution_destroy(solution);
+  hr2d_solution_destroy(own);
+  hr2d_operator_destroy(op);
+  hr2d_scene_destroy(scene);
+}
+END_TEST
+
 START_TEST(what_is_no_sky_is_refused) {
   hr2d_scene *scene = test_new_scene(NULL);
   const hr2d_sky good = cie(12, 35, 40);
@@ -470,5 +549,7 @@ TEST_SUITE("continuous sky") {
             fields_are_those_of_planes);
   ADD_TESTS("models", perez_has_its_coefficients, clearness_is_that_of_irradiances);
   ADD_TESTS("solve", targets_and_tolerances_hold, bands_have_their_skies);
+  ADD_TESTS("scenes", skies_past_images_are_refused, mirrors_need_symmetric_skies,
+            operators_keep_the_sky);
   ADD_TESTS("calls", what_is_no_sky_is_refused);
 }
