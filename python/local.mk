@@ -11,6 +11,7 @@ EXTRA_DIST += \
 	python/hr2d/_draw.py \
 	python/hr2d/_enclosure.py \
 	python/hr2d/_errors.py \
+	python/hr2d/_film.py \
 	python/hr2d/_geojson.py \
 	python/hr2d/_hr2d.pyi \
 	python/hr2d/_law.py \
@@ -49,6 +50,7 @@ EXTRA_DIST += \
 	python/tests/test_documentation.py \
 	python/tests/test_draw.py \
 	python/tests/test_drawings.py \
+	python/tests/test_film.py \
 	python/tests/test_law.py \
 	python/tests/test_one_value.py python/tests/test_scene.py \
 	python/tests/test_links.py \

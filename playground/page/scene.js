@@ -6,7 +6,7 @@
 
 import { foot, linesOf, removeBoxes, runsOf, setRun } from "./geojson.js";
 
-const FAR_LONGER = 8;
+const FAR_LONGER = 20;
 const LIGHT = ["emission", "reflectance", "transmittance"];
 const HEAT = ["temperature", "flux", "heat", "shield", "emissivity"];
 /** What a wall of each kind begins with. */
@@ -357,17 +357,25 @@ export class Scene {
 
   // Geometry.
 
-  /** The rectangle around all walls; or without those that are far longer than all others
-      together, such as the ground under a few things. */
+  /** The rectangle around all walls; or without those that are far longer than the extent of all
+      shorter ones, such as the ground under a few things. */
   bounds(useful = false) {
     if (!this.walls.length) return { low: [0, 0], high: [1, 1] };
     if (!useful) return around(this.walls);
-    const lengths = this.walls.map((w) => distance(w.a, w.b));
-    const rest = this.walls.filter((_, k) => {
-      const others = this.walls.filter((_, other) => lengths[other] < lengths[k] / FAR_LONGER);
-      return !others.length || lengths[k] < FAR_LONGER * extent(around(others));
-    });
-    return around(rest);
+    const sorted = this.walls
+      .map((w) => [distance(w.a, w.b), w])
+      .sort(([s], [t]) => s - t);
+    let box = around([sorted[0][1]]);
+    for (let k = 1; k < sorted.length; k++) {
+      const [length, w] = sorted[k];
+      if (2 * k >= sorted.length && length >= FAR_LONGER * extent(box)) break;
+      const own = around([w]);
+      box = {
+        low: box.low.map((v, c) => Math.min(v, own.low[c])),
+        high: box.high.map((v, c) => Math.max(v, own.high[c])),
+      };
+    }
+    return box;
   }
 
   size() {

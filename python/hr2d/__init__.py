@@ -25,6 +25,7 @@ from ._enclosure import Enclosure
 from ._errors import (AccuracyError, AccuracyWarning, CallbackError, Error, FileError,
                       FormatError, InvalidArgument, LimitReached, NoSolution, NotConverged,
                       OutOfMemory, RangeError, SceneError, StateError, Stopped, Unsupported)
+from ._film import film, radiation_temperature
 from ._law import Law, Term
 from ._links import Fit, Links, Study
 from ._operator import Gradient, Lights, Operator
@@ -43,5 +44,6 @@ __all__ = [
     "Operator", "Oracle", "OutOfMemory", "PointFactors", "Points", "Policy", "Power",
     "Prediction", "Progress", "RangeError", "SPLIT_BOTH", "SPLIT_FIRST", "SPLIT_SECOND",
     "Scene", "SceneError", "SceneWarning", "Snap", "Solution", "StateError", "Stopped", "Study",
-    "Sun", "Temperatures", "Term", "Unsupported", "black_body", "exchange_area", "read",
+    "Sun", "Temperatures", "Term", "Unsupported", "black_body", "exchange_area",
+    "film", "radiation_temperature", "read",
 ]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import html
 from importlib import import_module
-from typing import Any, List, NamedTuple, Optional, Sequence, Tuple
+from typing import Any, Callable, List, NamedTuple, Optional, Sequence, Tuple
 
 import numpy as np
 
@@ -14,8 +14,8 @@ ROWS = 12
 """A table in a notebook has at most so many patches."""
 
 
-FAR_LONGER = 8
-"""So many times longer than others is a patch that may go on beyond a picture."""
+FAR_LONGER = 20
+"""So many times as long as the extent of all shorter ones is a patch that goes on beyond a picture."""
 MORE, AROUND = .1, .06
 """Parts of the extent: of what goes on or stands around a cell, and around all."""
 SHIFT = 2.0
@@ -81,20 +81,20 @@ def _around(points: Array) -> Tuple[Array, Array]:
 
 
 def _what_matters(scene: Any) -> View:
-    """The box of all patches but those far longer than the extent of all that are far shorter."""
-    ends, lengths = scene.segments, scene.lengths
-    order = np.argsort(lengths)
-    lows = np.minimum.accumulate(ends[order].min(axis=1))
-    highs = np.maximum.accumulate(ends[order].max(axis=1))
-    shorter = np.searchsorted(lengths[order], lengths / FAR_LONGER)
-    extents = (highs - lows).max(axis=1)[shorter - 1]
-    far = (shorter > 0) & (lengths >= FAR_LONGER * extents)
-    low, high = _around(ends[~far].reshape(-1, 2))
-    if not far.any():
+    """The box of all patches, but for those far longer than the extent of all shorter ones."""
+    order = np.argsort(scene.lengths)
+    ends, lengths = scene.segments[order], scene.lengths[order]
+    lows = np.minimum.accumulate(ends.min(axis=1))
+    highs = np.maximum.accumulate(ends.max(axis=1))
+    far = lengths[1:] >= FAR_LONGER * (highs - lows).max(axis=1)[:-1]
+    far[:max(0, (len(ends) + 1) // 2 - 1)] = False  # at least half of them matter
+    rest = int(np.argmax(far)) + 1 if far.any() else len(ends)
+    low, high = lows[rest - 1], highs[rest - 1]
+    if rest == len(ends):
         return View(low, high, False, 0)
     edge = AROUND * max(high - low)
-    low, high = _around(np.concatenate([[low, high], _passing(ends[far], low, high)]))
-    return View(low - edge, high + edge, True, int(far.sum()))
+    low, high = _around(np.concatenate([[low, high], _passing(ends[rest:], low, high)]))
+    return View(low - edge, high + edge, True, len(ends) - rest)
 
 
 def _images(scene: Any) -> List[Array]:
@@ -103,7 +103,7 @@ def _images(scene: Any) -> List[Array]:
     return [scene.image(k) for k in range(1, count)]
 
 
-def _view(scene: Any, box: Optional[Sequence[float]]) -> View:
+def view_of(scene: Any, box: Optional[Sequence[float]]) -> View:
     if box is not None:
         corners = np.array(box, dtype=float).reshape(2, 2)
         return View(*_around(corners), True, 0)
@@ -122,30 +122,52 @@ def _colours(scene: Any, solution: Any, t: Array, band: int) -> Array:
     return np.stack([solution.at(k, t, gather=False).B[:, band] for k in range(len(scene))])
 
 
-def _fill(ax: Any, view: View, solution: Any, band: int, filled: int, like: Any) -> None:
-    """The mean radiosity between the walls, in the colours of the walls."""
+class Light(NamedTuple):
+    """What a picture shows of a solution."""
+
+    walls: Array
+    """Along each patch, (n, pieces)."""
+    between: Optional[Array]
+    """At a grid of the view, (rows, columns); None if it is not filled."""
+    extent: Tuple[float, float, float, float]
+    """Of that grid: left, right, low, high."""
+
+    @property
+    def range(self) -> Tuple[float, float]:
+        shown = [np.ravel(a) for a in (self.walls, self.between) if a is not None]
+        seen = np.concatenate(shown)
+        seen = seen[np.isfinite(seen)]
+        return (float(seen.min()), float(seen.max())) if len(seen) else (0.0, 1.0)
+
+
+def look(solution: Any, view: View, band: int, points: int, filled: int,
+         show: Optional[Callable[[Array], Array]]) -> Light:
+    """The light of a solution in a view: B along the walls, and the mean radiosity between."""
     low, high = view.low, view.high
     flat = np.where(high == low, 0.1 * (max(high - low) or 1), 0)
     low, high = low - flat, high + flat
-    steps = np.maximum(2, np.ceil(filled * (high - low) / max(high - low))).astype(int)
-    x, y = (a + (b - a) * (np.arange(n) + .5) / n for a, b, n in zip(low, high, steps))
-    mean = solution.field(np.meshgrid(x, y)).mean[..., band]
-    seen = np.concatenate([mean[np.isfinite(mean)], np.ravel(like.get_array())])
-    like.set_clim(seen.min(), seen.max())
-    ax.imshow(mean, origin="lower", extent=(low[0], high[0], low[1], high[1]),
-              cmap=like.get_cmap(), norm=like.norm, zorder=0)
+    extent = (float(low[0]), float(high[0]), float(low[1]), float(high[1]))
+    _, t = _strokes(solution.scene.segments, points)
+    walls, between = _colours(solution.scene, solution, t, band), None
+    if filled:
+        steps = np.maximum(2, np.ceil(filled * (high - low) / max(high - low))).astype(int)
+        x, y = (a + (b - a) * (np.arange(n) + .5) / n for a, b, n in zip(low, high, steps))
+        between = solution.field(np.meshgrid(x, y)).mean[..., band]
+    if show is not None:
+        walls, between = show(walls), None if between is None else show(between)
+    return Light(walls, between, extent)
 
 
-def _walls(ax: Any, scene: Any, points: int) -> Tuple[Any, Array]:
+def _walls(ax: Any, scene: Any, points: int) -> Any:
     """The patches as lines, shifted in points of the page to the sides of their fronts."""
     collections: Any = import_module("matplotlib.collections")
-    pieces, t = _strokes(scene.segments, points)
+    pieces, _ = _strokes(scene.segments, points)
     walls = collections.LineCollection(pieces.reshape(-1, 2, 2), linewidths=3,
                                        capstyle="projecting")
     walls.set_offset_transform(ax.figure.dpi_scale_trans)
     walls.set_offsets(np.repeat(SHIFT / 72 * _fronts(scene), points - 1, axis=0))
     ax.add_collection(walls, autolim=False)
-    return walls, t
+    return walls
 
 
 def _surroundings(ax: Any, scene: Any) -> None:
@@ -176,31 +198,43 @@ def _frame(ax: Any, scene: Any, view: View) -> None:
                     fontsize="small")
 
 
+def paint(ax: Any, scene: Any, view: View, light: Optional[Light], points: int, cmap: Any,
+          limits: Optional[Tuple[float, float]] = None) -> Any:
+    """Paints a scene and its light, with colours over these limits or its own range; returns the
+    lines of the walls."""
+    walls = _walls(ax, scene, points if light is not None else 2)
+    if light is None:
+        walls.set_color("0.35")
+    else:
+        walls.set_array(light.walls.ravel())
+        walls.set_cmap(cmap)
+        walls.set_clim(*(limits or light.range))
+        if light.between is not None:
+            ax.imshow(light.between, origin="lower", extent=light.extent, cmap=walls.get_cmap(),
+                      norm=walls.norm, zorder=0)
+    _surroundings(ax, scene)
+    _frame(ax, scene, view)
+    return walls
+
+
 def plot(scene: Any, solution: Any, ax: Any, band: int, cmap: Any, points: int, labels: bool,
-         colorbar: bool, filled: int, box: Optional[Sequence[float]]) -> Any:
+         colorbar: bool, filled: int, box: Optional[Sequence[float]],
+         show: Optional[Callable[[Array], Array]], label: str) -> Any:
     plt: Any = import_module("matplotlib.pyplot")
 
     if solution is not None and solution.scene is not scene:
         raise ValueError("this is a solution of another scene")
     ax = plt.gca() if ax is None else ax
-    view = _view(scene, box)
-    walls, t = _walls(ax, scene, points if solution is not None else 2)
-    if solution is None:
-        walls.set_color("0.35")
-    else:
-        walls.set_array(_colours(scene, solution, t, band).ravel())
-        walls.set_cmap(cmap)
-    if solution is not None and filled:
-        _fill(ax, view, solution, band, filled, walls)
-    _surroundings(ax, scene)
-    if solution is not None and colorbar:
-        ax.figure.colorbar(walls, ax=ax, label="B")
+    view = view_of(scene, box)
+    light = None if solution is None else look(solution, view, band, points, filled, show)
+    walls = paint(ax, scene, view, light, points, cmap)
+    if light is not None and colorbar:
+        ax.figure.colorbar(walls, ax=ax, label=label)
     if labels:
         for name, ends in zip(scene.names, scene.segments):
             middle = _part(ends[None], view.low, view.high)
             if len(middle):
                 ax.annotate(name, middle.mean(axis=0), fontsize="small", ha="center", va="center")
-    _frame(ax, scene, view)
     return ax
 
 
@@ -217,7 +251,7 @@ def _svg(scene: Any, solution: Any = None, width: float = 360) -> str:
     """The walls; coloured by B of the first band if there is a solution."""
     if len(scene) == 0:
         return ""
-    low, high, *_ = _view(scene, None)
+    low, high, *_ = view_of(scene, None)
     edge = 0.03 * max(high - low)
     low, high = low - edge, high + edge
     scale = width / max(high - low)

@@ -8,8 +8,8 @@ import threading
 from contextlib import contextmanager
 from functools import cached_property
 from importlib import import_module
-from typing import (Any, Dict, Iterator, List, Mapping, NamedTuple, Optional, Sequence, Tuple,
-                    Union)
+from typing import (Any, Callable, Dict, Iterator, List, Mapping, NamedTuple, Optional, Sequence,
+                    Tuple, Union)
 
 import numpy as np
 
@@ -850,7 +850,8 @@ class Scene:
     def plot(self, solution: Optional[Solution] = None, *, ax: Any = None, band: int = 0,
              cmap: Any = "viridis", points: int = 33, labels: bool = False,
              colorbar: bool = True, filled: int = 160,
-             box: Optional[Sequence[float]] = None) -> Any:
+             box: Optional[Sequence[float]] = None,
+             show: Optional[Callable[[Array], Array]] = None, label: str = "B") -> Any:
         """Draws the walls, coloured by B if there is a solution; returns matplotlib's axes.
 
         Backs and fronts are drawn beside each other, each on the side of its front.  The plane
@@ -858,11 +859,15 @@ class Scene:
         side; 0 for none.
 
         `box` is the part of the plane that is shown, (x0, y0, x1, y1).  Without it that is the
-        scene; but of patches 8 times as long as the extent of all that is 8 times shorter, such
-        as the ground under a few things, only what is near these, with a note.  What stands
+        scene; but of patches 20 times as long as the extent of all shorter ones, such as the
+        ground under a few things, only what is near these, with a note.  What stands
         around a cell between mirrors or in a period is drawn faintly.
+
+        `show` is a function of arrays of radiosities whose values are shown in their place, for
+        instance hr2d.radiation_temperature; `label` is written beside the colours.
         """
-        return _draw.plot(self, solution, ax, band, cmap, points, labels, colorbar, filled, box)
+        return _draw.plot(self, solution, ax, band, cmap, points, labels, colorbar, filled, box,
+                          show, label)
 
     def _repr_html_(self) -> str:
         return _draw.scene_html(self)

@@ -91,6 +91,11 @@ def test_long_ground_goes_on_beyond_the_picture():
     far.add([(1000, -20), (-1000, -20)], reflectance=.3)
     far.add([(500, 2), (2500, 2)], reflectance=.3)
     assert limits(far.plot(ax=pyplot.figure().gca())) == limits(axes)
+    # Nor are the walls of a room ground because a piece of them is short.
+    room = hr2d.Scene()
+    room.add([(0, 0), (5, 0), (5, 3), (0, 3), (0, .1)], reflectance=.5)
+    room.add([(0, .1), (0, 0)], reflectance=.5)
+    assert not room.plot(ax=pyplot.figure().gca()).texts
     axes = ground(20).plot(ax=pyplot.figure().gca())
     assert limits(axes)[0] < -10 and not axes.texts
     # Notebooks show the same part.

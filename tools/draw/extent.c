@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The part of the plane that a picture shows: --box, or what matters of the scene.  A patch far
-   longer than the extent of all that is far shorter than it, such as the ground under a few
-   things, goes on beyond the picture. */
+/* The part of the plane that a picture shows: --box, or what matters of the scene.  Patches far
+   longer than the extent of all shorter ones, such as the ground under a few things, go on
+   beyond the picture. */
 #include "draw/picture.h"
 
 #if HAVE_CAIRO
@@ -11,7 +11,7 @@
 
 #include "output/complain.h"
 
-#define FAR_LONGER 8
+#define FAR_LONGER 20
 
 /* Parts of the extent: of the ground on each side, and around all. */
 #define MORE   0.1
@@ -21,7 +21,6 @@ typedef struct item {
   double length;
   size_t patch;
   box around; /* this patch and all shorter ones */
-  int far;    /* it goes on beyond the picture */
 } item;
 
 static int by_length(const void *a, const void *b) {
@@ -59,10 +58,12 @@ static item *sort_patches(const picture *p, size_t count) {
   return items;
 }
 
-/* The number of items that are far shorter than a length; `below` is a lower bound of it. */
-static size_t count_shorter(const item *items, size_t count, double length, size_t below) {
-  while (below < count && items[below].length < length / FAR_LONGER) below++;
-  return below;
+/* How many of the sorted patches matter: the shorter half or more of them, if the next one is
+   far longer than their extent; otherwise all. */
+static size_t count_what_matters(const item *items, size_t count) {
+  for (size_t k = (count + 1) / 2; k && k < count; k++)
+    if (items[k].length >= FAR_LONGER * extent(&items[k - 1].around)) return k;
+  return count;
 }
 
 /* Takes the points where a long patch passes a box: beside it along the patch, and no farther
@@ -84,23 +85,13 @@ static void take_passing(box *to, const box *at, const hr2d_element *e) {
 }
 
 /* What matters, and so much of the patches that go on that one sees where they are. */
-static box choose(picture *p, item *items, size_t count) {
-  box shown = nothing;
-  size_t shorter = 0;
-  p->going_on = 0;
-  for (size_t k = 0; k < count; k++) {
-    item *i = &items[k];
-    shorter = count_shorter(items, count, i->length, shorter);
-    i->far = shorter && i->length >= FAR_LONGER * extent(&items[shorter - 1].around);
-    if (i->far) p->going_on++;
-    if (i->far) continue;
-    take(&shown, root(p, i->patch)->a);
-    take(&shown, root(p, i->patch)->b);
-  }
+static box choose(picture *p, const item *items, size_t count) {
+  const size_t rest = count_what_matters(items, count);
+  box shown = items[rest - 1].around;
   const double edge = AROUND * extent(&shown);
-  const box rest = shown;
-  for (size_t k = 0; k < count; k++)
-    if (items[k].far) take_passing(&shown, &rest, root(p, items[k].patch));
+  p->going_on = count - rest;
+  for (size_t k = rest; k < count; k++)
+    take_passing(&shown, &items[rest - 1].around, root(p, items[k].patch));
   return (box){shown.x0 - edge, shown.y0 - edge, shown.x1 + edge, shown.y1 + edge};
 }
 
