@@ -67,6 +67,11 @@ export class Answer {
     return best;
   }
 
+  /** All elements without children. */
+  leaves() {
+    return Array.from({ length: this.count }, (_, k) => k).filter((k) => !this.child(k));
+  }
+
   /** The leaves of a patch from its start to its end. */
   leavesOf(patch) {
     const leaves = [];

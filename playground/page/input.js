@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Mouse, touch, keys and controls.
 
-import { $, PROPERTIES, showLegend, showMessage } from "./panel.js";
+import { $, ENDS, PROPERTIES, showLegend, showMessage } from "./panel.js";
 import { Scale } from "./palette.js";
+import { isShared } from "./share.js";
 
 const GRAB = 10; // pixels around what is grabbed
 const FINGER = 22;
@@ -11,11 +12,14 @@ const REST = 500; // milliseconds after the last arrow key
 const STEP = 1 / 200; // of the scene, for an arrow key
 const LEAP = 10;
 
+const distance = (p, q) => Math.hypot(p[0] - q[0], p[1] - q[1]);
+
 /** Pointers on the plan: move walls or draw them; drag the empty plan to shift the view. */
 class Pointer {
   constructor(page) {
     this.page = page;
     this.drag = null;
+    this.fingers = new Map(); // or the mouse, where they are on the screen
     const plan = $("plan");
     plan.addEventListener("pointerdown", (event) => this.down(event));
     plan.addEventListener("pointermove", (event) => this.move(event));
@@ -34,12 +38,18 @@ class Pointer {
   }
 
   down(event) {
-    if (event.button !== 0 || this.drag) return;
+    if (event.button !== 0) return;
+    this.fingers.set(event.pointerId, [event.offsetX, event.offsetY]);
+    if (this.fingers.size > 2) return;
+    if (this.fingers.size === 2) return this.pinch();
+    if (this.drag) return;
     const { page } = this;
     const at = this.at(event);
     $("plan").setPointerCapture(event.pointerId);
     if (document.querySelector("input[name=tool]:checked").value === "draw")
       return this.draw(at);
+    const screen = [event.offsetX, event.offsetY];
+    if (page.view.isSun(screen, page.scene.sun(page.band))) return (this.drag = { kind: "sun" });
     const found = page.scene.at(at, this.reach(event));
     page.choose(found ? found.wall : -1);
     this.drag = found
@@ -59,6 +69,8 @@ class Pointer {
 
   move(event) {
     const at = this.at(event);
+    if (this.fingers.has(event.pointerId))
+      this.fingers.set(event.pointerId, [event.offsetX, event.offsetY]);
     if (!this.drag) return this.page.point(at, this.reach(event));
     this.drag.moved = true;
     this[`${this.drag.kind}To`](at, event);
@@ -95,20 +107,51 @@ class Pointer {
     page.moving();
   }
 
+  sunTo(at, event) {
+    const { page } = this;
+    const bearing = Math.round(page.view.bearingOf([event.offsetX, event.offsetY]));
+    page.scene.setSun(page.band, { bearing });
+    page.showLists();
+    page.moving();
+  }
+
+  /** Two fingers shift and stretch the view; what the first one had begun is taken back. */
+  pinch() {
+    if (this.drag?.start) this.page.scene = this.drag.start;
+    this.drag = { kind: "pinch", moved: true, last: this.grip() };
+  }
+
+  /** The middle of two fingers, and how far apart they are. */
+  grip() {
+    const [p, q] = [...this.fingers.values()];
+    return { at: [(p[0] + q[0]) / 2, (p[1] + q[1]) / 2], apart: distance(p, q) };
+  }
+
+  pinchTo() {
+    if (this.fingers.size < 2) return;
+    const { view } = this.page;
+    const { last } = this.drag;
+    const now = (this.drag.last = this.grip());
+    view.shift([now.at[0] - last.at[0], now.at[1] - last.at[1]]);
+    if (last.apart > 0 && now.apart > 0) view.zoom(now.apart / last.apart, now.at);
+    this.page.show();
+  }
+
   shiftTo(at, event) {
     const { view } = this.page;
     const now = [event.offsetX, event.offsetY];
-    view.centre[0] -= (now[0] - this.drag.at[0]) / view.scale;
-    view.centre[1] += (now[1] - this.drag.at[1]) / view.scale;
+    view.shift([now[0] - this.drag.at[0], now[1] - this.drag.at[1]]);
     this.drag.at = now;
     this.page.show();
   }
 
-  up() {
+  up(event) {
     const { drag, page } = this;
+    this.fingers.delete(event.pointerId);
+    if (drag?.kind === "pinch" && this.fingers.size) return; // the other finger is still there
     this.drag = null;
     if (!drag?.moved) return;
-    if (drag.kind === "shift") page.changed();
+    if (drag.kind === "shift" || drag.kind === "pinch") page.changed();
     else page.edited();
   }
 
@@ -238,6 +281,7 @@ function listenToWalls(page) {
   $("wall").addEventListener("change", (event) =>
     page.choose(event.target.value === "" ? -1 : Number(event.target.value)),
   );
+  listenToEnds(page);
   edit("kind", (scene, { value }) => scene.setKind(page.chosen, value, whole()));
   edit("both", (scene, { checked }) => scene.setSides(page.chosen, checked, whole()));
   textOf(page, "properties", (object) => page.scene.setProperties(page.chosen, object));
@@ -251,6 +295,29 @@ function listenToWalls(page) {
     const half = page.scene.size() / 10;
     page.addWall([x - half, y], [x + half, y]);
     $("plan").focus();
+  });
+}
+
+/** Typed coordinates, and a length from the first end on. */
+function listenToEnds(page) {
+  const moveTo = (end, point) => {
+    const { scene, chosen } = page;
+    const from = scene.walls[chosen][end];
+    const ends = scene.endsToMove(chosen, end, $("how").value);
+    scene.moveEnd(ends, scene.copy(), from, point);
+    page.edited();
+  };
+  const listen = (id, move) =>
+    $(id).addEventListener("change", ({ target }) => {
+      if (target.value === "" || !target.checkValidity())
+        return showMessage(target.validationMessage || "a number is missing");
+      move(Number(target.value), page.scene.walls[page.chosen]);
+    });
+  for (const [id, end, axis] of ENDS)
+    listen(id, (v, w) => moveTo(end, w[end].map((old, k) => (k === axis ? v : old))));
+  listen("length", (v, { a, b }) => {
+    const part = v / distance(a, b);
+    moveTo("b", [a[0] + part * (b[0] - a[0]), a[1] + part * (b[1] - a[1])]);
   });
 }
 
@@ -333,7 +400,6 @@ async function listenToFiles(page) {
   menu.add(new Option("choose one", ""));
   for (const file of await (await fetch("scenes/list.json")).json())
     menu.add(new Option(file.replace(/\.geojson$/, ""), file));
-  menu.value = "partition.geojson";
   menu.addEventListener("change", () => menu.value && openExample());
   $("load").addEventListener("click", () => $("file").click());
   $("file").addEventListener("change", async (event) => {
@@ -341,10 +407,19 @@ async function listenToFiles(page) {
     event.target.value = "";
     if (file) await page.openFile(() => file.text(), file.name);
   });
+  $("new").addEventListener("click", () => page.new());
   $("save").addEventListener("click", () => page.save());
+  $("share").addEventListener("click", () => page.share());
+  $("png").addEventListener("click", () => page.exportPNG());
+  $("svg").addEventListener("click", () => page.exportSVG());
+  addEventListener("hashchange", () => isShared(location.hash) && page.openKept());
   $("undo").addEventListener("click", () => page.undo());
   $("redo").addEventListener("click", () => page.redo());
+  if (await page.openKept()) return;
+  const said = $("message").textContent;
+  menu.value = "partition.geojson";
   await openExample();
+  if (said) showMessage(said, "note");
 }
 
 export async function listen(page) {

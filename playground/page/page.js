@@ -4,6 +4,7 @@
 
 import { Answer } from "./answer.js";
 import { Engine } from "./engine.js";
+import { download, toPNG, toSVG } from "./export.js";
 import { listen } from "./input.js";
 import { Scale } from "./palette.js";
 import {
@@ -14,6 +15,7 @@ import {
   showMessage,
   showNoAnswer,
   showNumbers,
+  showOld,
   showProgress,
   showScene,
   showStatus,
@@ -24,6 +26,7 @@ import {
   showWarnings,
 } from "./panel.js";
 import { Scene } from "./scene.js";
+import { fromFragment, isShared, keep, kept, toFragment } from "./share.js";
 import { View } from "./view.js";
 
 const BUDGET = 30; // milliseconds for a sketch
@@ -39,6 +42,7 @@ const LETTERS = {
   temperature: "T",
   emissivity: "ε",
   flux: "q",
+  heat: "Q",
 };
 
 export class Page {
@@ -79,9 +83,11 @@ export class Page {
     } catch (error) {
       showMessage(`${what}: ${error.message}`);
       this.showLists();
-      return showStatus(state, said);
+      showStatus(state, said);
+      return false;
     }
     this.changed();
+    return true;
   }
 
   /** Takes another scene in the place of the one that is shown, as a step of history. */
@@ -105,6 +111,7 @@ export class Page {
     this.path = [];
     this.dropAnswer();
     this.study = { rows: [], slope: 0 };
+    $("under").textContent = "\u00a0";
   }
 
   /** Shows no answer any more: there is none, or it is one to another question. */
@@ -126,6 +133,7 @@ export class Page {
 
   showLists() {
     $("example").value = this.scene.title;
+    if ($("example").selectedIndex < 0) $("example").value = "";
     showLists(this.scene, this.band);
     showScene(this.scene);
   }
@@ -215,14 +223,68 @@ export class Page {
   }
 
   save() {
-    const url = URL.createObjectURL(
-      new Blob([this.scene.toGeoJSON()], { type: "application/geo+json" }),
+    const blob = new Blob([this.scene.toGeoJSON()], { type: "application/geo+json" });
+    download(blob, "scene.geojson");
+  }
+
+  async exportPNG() {
+    download(await toPNG(this), "scene.png");
+  }
+
+  exportSVG() {
+    download(new Blob([toSVG(this)], { type: "image/svg+xml" }), "scene.svg");
+  }
+
+  /** An empty plane under a sky. */
+  new() {
+    const scene = new Scene({ type: "FeatureCollection", hr2d: { background: 1 }, features: [] });
+    this.begin(scene, new Float64Array(0));
+    showMessage("");
+    this.changed();
+    document.querySelector("input[name=tool][value=draw]").checked = true;
+  }
+
+  /** Puts the scene into the address of the page, and into the clipboard where that is allowed. */
+  async share() {
+    const fragment = await toFragment(this.scene.title, this.scene.toGeoJSON());
+    history.replaceState(null, "", fragment);
+    const copied = await navigator.clipboard?.writeText(location.href).then(
+      () => true,
+      () => false,
     );
-    const link = document.createElement("a");
-    link.href = url;
-    link.download = "scene.geojson";
-    link.click();
-    setTimeout(() => URL.revokeObjectURL(url), 1000);
+    showMessage(
+      `The address of this page now holds the scene, in ${location.href.length} characters` +
+        `${copied ? ", and has been copied" : ": copy it"}. Nothing has left this machine.`,
+      "note",
+    );
+  }
+
+  /** The scene of the address, or else the last one of this browser; whether there is one. */
+  async openKept() {
+    if (isShared(location.hash)) {
+      let scene;
+      try {
+        scene = await fromFragment(location.hash);
+      } catch (error) {
+        showMessage(error.message);
+        return false;
+      }
+      return this.openFile(async () => scene.text, scene.title || "shared scene");
+    }
+    const last = kept();
+    return last ? this.openFile(async () => last.text, last.title || "last scene") : false;
+  }
+
+  /** After each change: an address that holds another scene is none of this one. */
+  keepScene() {
+    const text = this.scene.toGeoJSON();
+    if (text === this.textKept) return;
+    if (this.textKept !== undefined && isShared(location.hash))
+      history.replaceState(null, "", location.pathname + location.search);
+    this.textKept = text;
+    $("kept").textContent = keep(this.scene.title, text)
+      ? "Kept in this browser"
+      : "Too large to be kept in this browser: save it";
   }
 
   // Answers.
@@ -240,6 +302,8 @@ export class Page {
 
   /** While something moves. */
   moving() {
+    this.answered = false;
+    showOld();
     showStatus("moving", "Moving: a sketch");
     this.engine.stop();
     this.job({ task: "sketch", budget: BUDGET });
@@ -266,6 +330,8 @@ export class Page {
   /** When something has changed and rests: the exact answer. */
   changed() {
     this.engine.settle();
+    this.answered = false;
+    this.keepScene();
     const { scene } = this;
     if (!scene.walls.length) return this.showNothing();
     showStatus("busy", "Solving …");
@@ -286,7 +352,10 @@ export class Page {
   /** Ends a solve that takes too long. */
   halt() {
     this.engine.stop();
-    showStatus("stopped", "Stopped");
+    if (this.answered) return showStatus("stopped", "Stopped: solved, but not all of it is shown");
+    this.dropAnswer();
+    showStatus("stopped", "Stopped: no answer");
+    this.show();
   }
 
   showNothing() {
@@ -323,6 +392,7 @@ export class Page {
     this.answer = new Answer(data, bands);
     this.path = [];
     this.exact = exact;
+    this.answered = exact;
     this.images = data.images ?? data.scene?.images ?? this.images;
     if (exact) this.takeDocument(data);
     showTiles(this.answer, this.answer.patches);

@@ -78,6 +78,11 @@ export function showNumbers(answer, exact) {
 /** What stands in the place of an answer that there is not. */
 export function showNoAnswer() {
   $("numbers").replaceChildren();
+  showOld();
+}
+
+/** While something moves: these belong to an exact answer. */
+export function showOld() {
   $("values").tBodies[0].replaceChildren();
   showWarnings([]);
 }
@@ -184,6 +189,14 @@ function stretch(id, values, least) {
   $(id).max = most > 0 ? 2 * most : least;
 }
 
+/** The fields of the ends of a wall. */
+export const ENDS = [
+  ["from-x", "a", 0],
+  ["from-y", "a", 1],
+  ["to-x", "b", 0],
+  ["to-y", "b", 1],
+];
+
 /** The first and second property of each kind of wall, and what the first one is called. */
 export const PROPERTIES = {
   light: ["emission", "reflectance", "Emission"],
@@ -211,6 +224,13 @@ export function showWall(scene, chosen, band) {
   $("emission").min = first === "flux" || first === "heat" ? -$("emission").max : 0;
   const missing = wall && second === "emissivity" ? 1 : 0;
   showPair("emission", wall && (scene.value(chosen, first, band) ?? 0));
+  for (const [id, end, axis] of ENDS) {
+    $(id).disabled = !wall;
+    if (document.activeElement !== $(id)) $(id).value = wall ? wall[end][axis] : "";
+  }
+  $("length").disabled = !wall;
+  if (document.activeElement !== $("length"))
+    $("length").value = wall ? Math.hypot(wall.b[0] - wall.a[0], wall.b[1] - wall.a[1]) : "";
   showPair("reflectance", wall && (scene.value(chosen, second, band) ?? missing));
   showPair("transmittance", wall && (scene.value(chosen, "transmittance", band) ?? 0));
   $("both").checked = Boolean(wall?.both);

@@ -254,7 +254,8 @@ export class Scene {
         const { faces, ...properties } = structuredClone(propertiesOf(whole));
         if (given(properties.name))
           properties.name = this.facts[first + k]?.name ?? `${properties.name}/${k + 1}`;
-        if (given(properties.heat)) properties.heat *= distance(w.a, w.b) / length; // of all
+        for (const side of [properties, properties.back]) // a heat is that of all
+          if (given(side?.heat)) side.heat *= distance(w.a, w.b) / length;
         const line = { type: "LineString", coordinates: [[...w.a], [...w.b]] };
         return { ...structuredClone(rest), properties, geometry: line };
       }),

@@ -65,6 +65,11 @@ export class View {
     this.centre = [this.centre[0] + fixed[0] - now[0], this.centre[1] + fixed[1] - now[1]];
   }
 
+  /** Moves what is shown by so many pixels. */
+  shift([dx, dy]) {
+    this.centre = [this.centre[0] - dx / this.scale, this.centre[1] + dy / this.scale];
+  }
+
   toScreen([x, y]) {
     return [
       this.width / 2 + (x - this.centre[0]) * this.scale,
@@ -121,6 +126,20 @@ export class View {
     this.context.imageSmoothingEnabled = true;
     this.context.imageSmoothingQuality = "high";
     this.context.drawImage(canvas, x0 - dx / 2, y0 - dy / 2, x1 - x0 + dx, y1 - y0 + dy);
+  }
+
+  /** The field as an element of an SVG. */
+  imageSVG() {
+    if (!this.image) return "";
+    const { canvas, low, high, columns, rows } = this.image;
+    const [x0, y1] = this.toScreen(low);
+    const [x1, y0] = this.toScreen(high);
+    const dx = (x1 - x0) / Math.max(1, columns - 1);
+    const dy = (y1 - y0) / Math.max(1, rows - 1);
+    return (
+      `<image x="${x0 - dx / 2}" y="${y0 - dy / 2}" width="${x1 - x0 + dx}" ` +
+      `height="${y1 - y0 + dy}" preserveAspectRatio="none" href="${canvas.toDataURL()}"/>`
+    );
   }
 
   /** Whether no light is at the node that is nearest to a point on the screen. */
@@ -207,6 +226,18 @@ export class View {
     const turn = (bearing * Math.PI) / 180;
     const far = Math.min(this.width, this.height) / 2 - SUN - 6;
     return [this.width / 2 + far * Math.sin(turn), this.height / 2 - far * Math.cos(turn)];
+  }
+
+  /** Whether a point of the screen is on the sun. */
+  isSun([x, y], sun) {
+    if (!(sun?.irradiance > 0)) return false;
+    const at = this.sunAt(sun.bearing);
+    return Math.hypot(x - at[0], y - at[1]) < SUN + 8;
+  }
+
+  /** The bearing of a point of the screen from its middle. */
+  bearingOf([x, y]) {
+    return (Math.atan2(x - this.width / 2, this.height / 2 - y) * 180) / Math.PI;
   }
 
   /** A disc, and its light as arrows. */

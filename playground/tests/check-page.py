@@ -5,15 +5,20 @@ PAGE is the folder of the page, HR2D the native program, whose digits are expect
 the folder of the examples.  Screenshots go to PICTURES.
 """
 
+import base64
 import functools
 import http.server
 import json
 import math
 import os
+import re
+import shutil
 import subprocess
 import sys
 import threading
 import time
+import xml.etree.ElementTree as xml
+import zlib
 
 from webdriver import Browser
 
@@ -308,6 +313,17 @@ FEATURES = {
     ),
     "heat": ({}, [room(temperature=300), wall(BOX, heat=50, emissivity=0.5, sides="both")]),
     "flux": ({}, [room(flux=-100, emissivity=0.5), wall(BOX, temperature=800, sides="both")]),
+    "heat of a back": (
+        {},
+        [
+            room(heat=-700, emissivity=0.5),
+            wall(BOX, temperature=800, sides="both", back={"heat": 50}),
+        ],
+    ),
+    "sky in space": (
+        {"sky": {"cie": 3, "irradiance": 300, "sun_elevation": 40, "sun_azimuth": 90}},
+        [wall(FLOOR, reflectance=0.3), wall([[2, 0], [2, 1]], reflectance=0.5)],
+    ),
     "spectrum": (
         {"wavelengths": [3, 8]},
         [room(temperature=500, emissivity=[0.2, 0.5, 0.9]), wall(BOX, flux=0, sides="both")],
@@ -474,6 +490,7 @@ def same_as_program(page):
 def a_ring_stays_a_ring_while_its_corner_moves(page):
     path = write_scene(page, "ring", {}, [room(emission=1, reflectance=0.5)], bbox=[0, 0, 3, 2])
     page.load(path)
+    assert page.browser.run("return document.getElementById('example').value") == ""
     page.drag(page.at(path, 3, 2), page.at(path, 2.5, 1.5))
     page.settle()
     with open(page.saved(), encoding="utf-8") as file:
@@ -536,6 +553,21 @@ def every_kind_of_wall_can_be_made_in_the_page(page):
     assert [row[3] for row in page.table()] == [500] * 4
     same_as_program(page)
     page.browser.run("document.getElementById('whole').checked = false")
+    # A heat is that of a whole feature: a wall of its own has its share of it.
+    members, features = FEATURES["heat of a back"]
+    page.load(write_scene(page, "heat", members, features))
+    before = page.table()
+    page.pick("#wall", "0")
+    page.browser.run("document.getElementById('status').dataset.state = 'exact'")
+    set_number(page, "reflectance", 0.25)
+    page.settle()
+    with open(page.saved(), encoding="utf-8") as file:
+        heats = [f["properties"].get("heat") for f in json.load(file)["features"]]
+    assert difference(heats[:4], [-140, -210, -140, -210]) < 1e-15, heats
+    assert difference([row[4] for row in page.table()[:4]], heats[:4]) < 1e-9, page.table()
+    set_number(page, "reflectance", 0.5)
+    page.settle()
+    assert table_difference(page.table(), before) < 1e-9
     # A sun, and what surrounds an open scene.
     path = write_scene(page, "open", {}, [wall(FLOOR, reflectance=0.4)])
     page.load(path)
@@ -548,6 +580,327 @@ def every_kind_of_wall_can_be_made_in_the_page(page):
     expected = 700 * math.cos(math.radians(30)) + 50
     assert abs(page.table()[0][1] / expected - 1) < 1e-12, page.table()
     same_as_program(page)
+
+
+@test
+def opening_another_scene_can_be_undone(page):
+    page.example("corner.geojson")
+    before = page.values()
+    page.example("lit-room.geojson")
+    other = page.values()
+    page.browser.click("#undo")
+    page.settle()
+    assert page.values() == before
+    menu = "return document.getElementById('example').value"
+    assert page.browser.run(menu) == "corner.geojson"
+    page.browser.click("#redo")
+    page.settle()
+    assert page.values() == other and page.browser.run(menu) == "lit-room.geojson"
+    assert page.under().strip() == "", page.under()
+    # An empty plane, on which a wall is drawn.
+    page.browser.click("#new")
+    page.settle()
+    assert page.walls() == 0 and page.values() == []
+    x, y, width, height = page.browser.run(
+        "const r = document.getElementById('plan').getBoundingClientRect();"
+        "return [r.left, r.top, r.width, r.height]"
+    )
+    middle = (round(x + width / 2), round(y + height / 2))
+    page.drag(middle, (middle[0] + 90, middle[1] + 30))
+    page.browser.click("input[name=tool][value=move]")
+    page.settle()
+    assert page.walls() == 1 and len(page.values()) == 2
+    same_as_program(page)
+    for _ in range(2):
+        page.browser.click("#undo")
+        page.settle()
+    assert page.values() == other
+
+
+@test
+def the_last_scene_is_kept_in_the_browser(page):
+    page.example("corner.geojson")
+    page.pick("#wall", "0")
+    page.browser.run("document.getElementById('status').dataset.state = 'exact'")
+    set_number(page, "reflectance", 0.25)
+    page.settle()
+    before = page.values()
+    page.open()
+    assert page.values() == before
+    for text in ("{", '{"title": 7}', '{"title": "x", "text": "no scene"}'):
+        page.browser.run("localStorage.setItem('hr2d-scene', arguments[0])", text)
+        page.open()
+        assert page.browser.run("return document.getElementById('example').value") == (
+            "partition.geojson"
+        )
+
+
+def open_address(page, address):
+    """As one that somebody sends: in a new page."""
+    page.browser.open("about:blank")
+    page.browser.open(address)
+    page.settle()
+
+
+def fragment_of(text):
+    """A fragment as the page makes it."""
+    packer = zlib.compressobj(9, zlib.DEFLATED, -15)
+    packed = packer.compress(text) + packer.flush()
+    return "#scene=" + base64.urlsafe_b64encode(packed).decode().rstrip("=")
+
+
+@test
+def a_scene_is_shared_by_the_address(page):
+    page.example("lit-room.geojson")
+    before = page.values()
+    page.browser.click("#share")
+    page.browser.wait("return location.hash.length > 100")
+    address = page.browser.run("return location.href")
+    assert "Nothing has left" in page.message(), page.message()
+    with open(os.path.join(SCENES, "lit-room.geojson"), encoding="utf-8") as file:
+        text = file.read()
+    # The address is that of the scene as long as this is what is shown.
+    page.browser.run("document.getElementById('wall').value = '0'")
+    page.pick("#wall", "0")
+    page.browser.run("document.getElementById('status').dataset.state = 'exact'")
+    set_number(page, "reflectance", 0.35)
+    page.settle()
+    assert page.browser.run("return location.hash") == ""
+    page.example("corner.geojson")
+    open_address(page, address)
+    assert page.values() == before
+    with open(page.saved(), encoding="utf-8") as file:
+        assert file.read() == text
+    names = page.browser.run("return performance.getEntriesByType('resource').map(e => e.name)")
+    assert not [name for name in names if not name.startswith(page.url)], names
+
+
+@test
+def hostile_fragments_and_files_are_harmless(page):
+    page.example("corner.geojson")
+    attack = "<img src=x onerror=\"window.hacked=1\"><script>window.hacked=1</script>"
+    scene = {"type": "FeatureCollection", "__proto__": {"polluted": 1}, "features": [
+        wall(FLOOR, name=attack, emission=1, constructor={"prototype": {"polluted": 1}})]}
+    scene = json.dumps(scene)
+    bomb = json.dumps({"title": "bomb", "text": "x" * 50_000_000}).encode()
+    fragments = {
+        "#scene=": "no scene",
+        "#scene=%00%ff": "no scene",
+        "#scene=AAAA": "no scene",
+        "#scene=" + "A" * 100_000: "no scene",
+        fragment_of(b"\xff\xfe"): "no scene",
+        fragment_of(b"[1]"): "no scene",
+        fragment_of(b'{"title": 1, "text": 2}'): "no scene",
+        fragment_of(bomb): "too large",
+        fragment_of(json.dumps({"title": attack, "text": "{"}).encode()): "line 1",
+        fragment_of(json.dumps({"title": "t", "text": "[" * 100_000}).encode()): "t: ",
+    }
+    for fragment, reason in fragments.items():
+        page.browser.run("localStorage.clear()")
+        page.browser.open("about:blank")
+        page.browser.open(page.url + fragment)
+        page.settle()
+        assert page.walls() > 10, fragment[:40]  # the first example
+        assert reason in page.message(), (fragment[:40], page.message())
+        # In a page that is open already it is refused with its reason.
+        page.browser.run("location.hash = ''; document.getElementById('message').textContent = ''")
+        page.browser.run("location.hash = arguments[0]", fragment)
+        page.browser.wait(
+            "return document.getElementById('message').textContent.includes(arguments[0])", reason
+        )
+        page.settle()
+    shared = fragment_of(json.dumps({"title": attack, "text": scene}).encode())
+    open_address(page, page.url + shared)
+    assert page.walls() == 1
+    page.pick("#wall", "0")
+    time.sleep(0.3)
+    page.browser.run("document.getElementById('status').dataset.state = 'exact'")
+    page.browser.click("#svg")
+    assert page.browser.run("return window.hacked ?? ({}).polluted ?? 0") == 0
+    assert attack in page.under(), page.under()
+    page.browser.run("localStorage.clear()")
+    page.open()
+
+
+@test
+def the_state_line_is_never_stale(page):
+    page.open()
+    page.example("corner.geojson")
+    assert len(page.values()) > 0
+    page.browser.run("document.getElementById('error').value = '1e-9'")
+    page.pick("#example", "occluders-200.geojson")
+    page.settle("busy")
+    page.browser.wait("return document.getElementById('example').value.startsWith('occ')")
+    page.browser.click("#stop")
+    page.settle("stopped")
+    shown = page.browser.run(
+        "return [document.getElementById('status').textContent,"
+        "document.getElementById('numbers').textContent]"
+    )
+    assert shown == ["Stopped: no answer", ""] and page.values() == [], shown
+    # A scene without an answer has no numbers of the one before.
+    page.example("square-room.geojson")
+    page.browser.click("input[name=tool][value=draw]")
+    name = "square-room.geojson"
+    page.drag(page.at(name, 0.5, 0.5), page.at(name, 1.1, 0.6))
+    page.settle("error")
+    page.browser.click("input[name=tool][value=move]")
+    assert page.values() == []
+    assert page.browser.run("return document.getElementById('numbers').textContent") == ""
+    page.browser.click("#undo")
+    page.settle()
+
+
+@test
+def pictures_are_saved_as_png_and_svg(page):
+    members, features = FEATURES["mirror"]
+    page.load(write_scene(page, "mirror", members, features))
+    for kind in ("png", "svg"):
+        path = os.path.join(page.browser.folder, "scene." + kind)
+        if os.path.exists(path):
+            os.remove(path)
+        page.browser.click("#" + kind)
+        end = time.monotonic() + 20
+        while not os.path.exists(path) and time.monotonic() < end:
+            time.sleep(0.05)
+        with open(path, "rb") as file:
+            data = file.read()
+        if PICTURES:
+            os.makedirs(PICTURES, exist_ok=True)
+            shutil.copy(path, os.path.join(PICTURES, "export." + kind))
+        if kind == "png":
+            assert data[:8] == b"\x89PNG\r\n\x1a\n" and len(data) > 5000
+            continue
+        root = xml.fromstring(data.decode())
+        space = "{http://www.w3.org/2000/svg}"
+        titles = [t.text for t in root.iter(space + "title") if t.text]
+        assert len(titles) == 3 and len(list(root.iter(space + "line"))) > 10, titles
+        assert len(list(root.iter(space + "image"))) == 1
+        assert len(list(root.iter(space + "text"))) == 6
+
+
+@test
+def the_sun_is_dragged_around(page):
+    members, features = FEATURES["sun"]
+    page.load(write_scene(page, "sun", members, features))
+    left, top, width, height = page.browser.run(
+        "const p = document.getElementById('plan'); const r = p.getBoundingClientRect();"
+        "return [r.left + p.clientLeft, r.top + p.clientTop, p.clientWidth, p.clientHeight]"
+    )
+    far = min(width, height) / 2 - 17
+
+    def place(bearing):
+        turn = math.radians(bearing)
+        return (
+            round(left + width / 2 + far * math.sin(turn)),
+            round(top + height / 2 - far * math.cos(turn)),
+        )
+
+    before = page.values()
+    page.drag(place(-40), place(25), steps=20)
+    page.settle()
+    with open(page.saved(), encoding="utf-8") as file:
+        bearing = json.load(file)["hr2d"]["sun"]["bearing"]
+    assert abs(bearing - 25) <= 1, bearing
+    assert difference(page.values(), before) > 1e-3
+    same_as_program(page)
+    page.browser.click("#undo")
+    page.settle()
+    assert page.values() == before
+
+
+@test
+def coordinates_and_lengths_are_typed(page):
+    page.load(write_scene(page, "typed", {}, [room(emission=1, reflectance=0.5)]))
+    page.pick("#wall", "2")
+    page.browser.run("document.getElementById('status').dataset.state = 'exact'")
+
+    def type_number(control, value):
+        page.browser.run(
+            "document.getElementById('status').dataset.state = 'asked';"
+            "const e = document.getElementById(arguments[0]); e.value = arguments[1];"
+            "e.dispatchEvent(new Event('change'))",
+            control,
+            value,
+        )
+        page.settle()
+
+    type_number("from-x", 2.75)
+    type_number("length", 1)
+    with open(page.saved(), encoding="utf-8") as file:
+        (feature,) = json.load(file)["features"]
+    ring = feature["geometry"]["coordinates"][0]
+    assert [2.75, 0] in ring or [2.75, 2] in ring, ring
+    same_as_program(page)
+    moved = page.browser.run(
+        "return ['from-x', 'from-y', 'to-x', 'to-y'].map(id => "
+        "Number(document.getElementById(id).value))"
+    )
+    assert abs(math.dist(moved[:2], moved[2:]) - 1) < 1e-12, moved
+
+
+@test
+def two_fingers_shift_and_stretch_the_plan(page):
+    page.example("partition.geojson")
+    x, y = page.at("partition.geojson", 1.2, 3.3)
+
+    def finger(name, start, end):
+        steps = [
+            {"type": "pointerMove", "x": start[0], "y": start[1]},
+            {"type": "pointerDown", "button": 0},
+            {"type": "pointerMove", "x": end[0], "y": end[1], "duration": 200},
+            {"type": "pointerUp", "button": 0},
+        ]
+        kind = {"pointerType": "touch"}
+        return {"type": "pointer", "id": name, "parameters": kind, "actions": steps}
+
+    def seen():
+        """Where the pointer says that two places of the screen are."""
+        places = []
+        for dx in (0, 100):
+            page.browser.mouse({"type": "pointerMove", "x": x + 150 + dx, "y": y + 100})
+            time.sleep(0.2)
+            found = re.search(r"\((-?[\d.]+), (-?[\d.]+)\)", page.under())
+            places.append(float(found[1]))
+        return places
+
+    before = seen()
+    page.browser.call(
+        "POST",
+        "/actions",
+        {
+            "actions": [
+                finger("one", (x + 100, y + 100), (x + 50, y + 100)),
+                finger("two", (x + 200, y + 100), (x + 250, y + 100)),
+            ]
+        },
+    )
+    page.settle()
+    after = seen()
+    ratio = (before[1] - before[0]) / (after[1] - after[0])
+    assert 1.9 < ratio < 2.1, (before, after)
+    page.browser.click("#fit")
+    page.settle()
+
+
+@test
+def the_dark_has_contrast_too(page):
+    def scheme(value):
+        features = [{"name": "prefers-color-scheme", "value": value}]
+        page.browser.call(
+            "POST",
+            "/goog/cdp/execute",
+            {"cmd": "Emulation.setEmulatedMedia", "params": {"features": features}},
+        )
+
+    scheme("dark")
+    page.open()
+    take_picture(page, "dark")
+    worst = page.browser.run(CONTRASTS)
+    colour = page.browser.run("return getComputedStyle(document.body).color")
+    scheme("light")
+    assert colour == "rgb(232, 237, 243)", colour
+    assert worst[0] >= CONTRAST, worst
 
 
 @test
