@@ -187,6 +187,7 @@ OUTSIDE = \
 	tests/program/check-resume.sh \
 	tests/program/check-temperatures.sh \
 	tests/program/check-texts.sh \
+	tests/program/check-town.sh \
 	tests/package/check-choices.sh tests/package/check-constants.sh \
 	tests/package/check-exports.sh \
 	tests/package/check-hardening.sh \

@@ -107,11 +107,12 @@ HR2D_API void hr2d_lint_options_init(hr2d_lint_options *options, size_t size);
  * those that no light reaches are shown. In a scene without light, patches whose back is seen
  * are shown.
  *
- * A back is seen if it fills a hundredth or more of the view from the middle of a front; it is
- * shown once, with the first front that sees it.
+ * A back is seen if it fills a hundredth or more of the view from the middle of a front.
  *
- * Fronts that see nothing make one warning, and those that no light reaches another: its text
- * names the first three and counts the rest.
+ * Backs that are seen make one warning, fronts that see nothing another, and those that no
+ * light reaches a third: its text names the first three and counts the rest. A patch of a
+ * feature without a name is called by the number of the feature in its file, "patch 8 (feature
+ * 3)".
  *
  * @param scene    committed or not; without a commit warnings about light and views are
  *                 missing. This helps with a scene that hr2d_scene_commit() refuses

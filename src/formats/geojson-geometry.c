@@ -202,6 +202,15 @@ static hr2d_status add_back(hr2di_geojson *reader, const hr2d_patch *front) {
   return status;
 }
 
+/* Of patches that were added: which feature they are of, unless it has a name. */
+static void mark(const hr2di_geojson *reader, size_t first, int looks_in) {
+  for (size_t k = first; k < reader->scene->patches; k++) {
+    reader->scene->patch[k].looks_in = (unsigned char)looks_in;
+    if (!reader->patch.name && reader->number < UINT32_MAX)
+      reader->scene->patch[k].feature = (uint32_t)reader->number;
+  }
+}
+
 static hr2d_status add_segment(hr2di_geojson *reader, hr2d_point a, hr2d_point b) {
   hr2d_patch patch = reader->patch;
   hr2d_status status = set_name(reader, &patch);
@@ -236,9 +245,11 @@ static hr2d_status add_path(hr2di_geojson *reader, const path *p) {
   }
   if (reader->is_mirror)
     return hr2di_geojson_add_mirror(reader, reader->point[0], reader->point[1]);
+  const size_t first = reader->scene->patches;
   for (size_t k = 1; !status && k < n; k++)
     status = add_segment(reader, reader->point[reverse ? k : k - 1],
                          reader->point[reverse ? k - 1 : k]);
+  mark(reader, first, p->role != LINE && !reader->faces_out);
   return status;
 }
 

@@ -39,6 +39,7 @@ typedef struct hr2di_geojson {
 
   /* The current feature. */
   char label[HR2DI_LABEL_SIZE]; /* feature 3 ("north wall") */
+  size_t number;                /* 3, if there are several */
   hr2d_patch patch;             /* the members that its segments have in common */
   hr2d_thermal thermal;         /* theirs, too, unless none is given */
   int has_back;                 /* the other side has properties of its own: */

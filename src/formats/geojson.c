@@ -58,6 +58,7 @@ static hr2d_status read_features(hr2di_geojson *reader, json_t *features) {
   for (size_t k = 0; !status && k < count; k++) {
     reader->watch->report.fraction = 0.5 + 0.5 * (double)k / (double)count;
     status = hr2di_watch_work(reader->watch, 4);
+    reader->number = count > 1 ? k + 1 : 0;
     if (!status) status = hr2di_geojson_feature(reader, json_array_get(features, k), k + 1);
     /* Freed bit by bit: a large tree at once takes long, and cannot be stopped. */
     json_array_set_new(features, k, json_null());

@@ -26,6 +26,7 @@ typedef struct views {
   int sky, lit;
   backs back;
   hr2di_lint_patches nothing; /* they see nothing */
+  hr2di_lint_patches backs;   /* their backs are seen */
   int blind;                  /* no front sees the sky, although there is one */
 } views;
 
@@ -116,18 +117,25 @@ static hr2d_status warn_of_dark(const views *v) {
       hr2di_lint_labels(scene, &dark).text);
 }
 
-/* A patch whose front sees nothing is told once, not for its back, too. */
-static hr2d_status warn_of_back(const views *v, size_t patch) {
+/* Backs that are seen, all of them at once: whose, of what, and what to do. */
+static hr2d_status warn_of_backs(const views *v) {
   const hr2d_scene *scene = v->lint->scene;
+  const size_t count = v->backs.count, patch = v->backs.patch[0];
   char more[40] = "";
+  if (!count) return HR2D_OK;
   const size_t viewers = v->back.viewers[patch], first = v->back.viewer[patch];
-  if (viewers > 1) snprintf(more, sizeof more, " and of %zu more", viewers - 1);
+  if (count > 1) snprintf(more, sizeof more, ", and others");
+  if (count == 1 && viewers > 1) snprintf(more, sizeof more, " and of %zu more", viewers - 1);
   return hr2di_lint_warn(
       v->lint,
       (hr2d_warning){.code = HR2D_WARNING_SEES_BACK, .patches = 2, .patch = {patch, first}},
-      "the back of %s stands in front of %s%s: backs are black and take all light, which is "
-      "lost; write \"sides\": \"both\", or draw a patch of its own on that side",
-      hr2di_patch_label(scene, patch).text, hr2di_patch_label(scene, first).text, more);
+      "the back%s of %s stand%s in front of %s%s: backs are black and take all light, which is "
+      "lost; write \"sides\": \"both\", %sor draw a patch of its own on that side",
+      count > 1 ? "s" : "", hr2di_lint_labels(scene, &v->backs).text, count > 1 ? "" : "s",
+      hr2di_patch_label(scene, first).text, more,
+      scene->patch[patch].looks_in
+          ? "or \"faces\": \"out\" for a polygon that is seen from outside, "
+          : "");
 }
 
 static hr2d_status warn_of_nothing(const views *v) {
@@ -152,7 +160,8 @@ static hr2d_status view_from(views *v, size_t patch) {
     return HR2D_OK;
   }
   const int dark = v->lit && scene->dark && scene->dark[patch];
-  if (!status && v->lit && is_back_seen(v, patch) && !dark) return warn_of_back(v, patch);
+  /* A patch whose front sees nothing is told once, not for its back, too. */
+  if (!status && v->lit && is_back_seen(v, patch) && !dark) hr2di_lint_add(&v->backs, patch);
   return status;
 }
 
@@ -177,6 +186,7 @@ static hr2d_status examine(views *v) {
   hr2d_status status = find_backs(v);
   for (size_t k = 0; k < hr2di_scene_cell(v->lint->scene) && !status; k++)
     status = view_from(v, k);
+  if (!status) status = warn_of_backs(v);
   if (!status) status = warn_of_nothing(v);
   return status ? status : warn_of_no_sky(v);
 }

@@ -231,8 +231,14 @@ typedef struct added_crossing {
   hr2d_point at;
 } added_crossing;
 
+/* Pairs that are refused behind the first one are counted, up to MOST_REFUSED. */
+enum { MOST_REFUSED = 10000 };
+
 typedef struct checker {
   hr2d_scene *scene;
+  hr2d_status refused; /* HR2D_OK, or that of the first pair, whose message is there */
+  size_t more;         /* pairs that are refused as well, */
+  double through;      /* and how far ends of them go through the other at most; 0: none does */
   hr2di_steps steps;
   added_crossing image, end; /* the first ones */
   int rounds;                /* that are left in which images are moved */
@@ -248,6 +254,35 @@ static void note_crossing(checker *c, size_t i, size_t j, hr2d_point x) {
 static hr2d_status fail_noted(const checker *c) {
   const added_crossing *a = c->image.patch[1] ? &c->image : &c->end;
   return a->patch[1] ? fail_crossed_image(c->scene, a->patch[0], a->patch[1], a->at) : HR2D_OK;
+}
+
+/* Crossings, and patches on one another.  One message is for all, so that a drawing is repaired
+   in one step. */
+static hr2d_status refuse(checker *c, size_t i, size_t j, const hr2di_meeting *m) {
+  const int crosses = m->kind == HR2DI_MEET_CROSS;
+  if (crosses) {
+    const double through = fmin(overshoot(&c->scene->patch[i].scaled, m->from),
+                                overshoot(&c->scene->patch[j].scaled, m->from));
+    if (through < HUGE_VAL) c->through = fmax(c->through, through);
+  }
+  if (c->refused) return ++c->more < MOST_REFUSED ? HR2D_OK : c->refused;
+  c->refused =
+      crosses ? fail_crossing(c->scene, i, j, m->from) : fail_overlap(c->scene, i, j, m);
+  return HR2D_OK;
+}
+
+/* Adds the others to the message. */
+static hr2d_status tell_others(const checker *c) {
+  hr2di_message *message = &c->scene->message;
+  const char *most = c->more == MOST_REFUSED ? " or more" : "";
+  char help[80] = "";
+  if (!c->more) return c->refused;
+  if (c->through > 0)
+    snprintf(help, sizeof help, "; --snap %.2g repairs or cuts all",
+             ldexp(1.5 * c->through, c->scene->exponent));
+  return hr2di_message_fail(message, c->refused,
+                            "%s; %zu%s more pairs cross or lie on one another%s", message->text,
+                            c->more, most, help);
 }
 
 static hr2d_status check_pair(void *ctx, size_t i, size_t j) {
@@ -267,8 +302,7 @@ static hr2d_status check_pair(void *ctx, size_t i, size_t j) {
     note_crossing(c, i, j, m.from);
     return HR2D_OK;
   }
-  if (m.kind == HR2DI_MEET_CROSS) return fail_crossing(scene, i, j, m.from);
-  return fail_overlap(scene, i, j, &m);
+  return refuse(c, i, j, &m);
 }
 
 /* Rounds in which images are put back to back: what is moved for one pair may be in front of
@@ -281,11 +315,12 @@ hr2d_status hr2di_scene_check_overlaps(hr2d_scene *scene, hr2di_watch *watch) {
   do {
     status = hr2di_crossings_find(&scene->alloc, &scene->patch[0].scaled, scene->patches,
                                   sizeof *scene->patch, NULL, check_pair, &c, watch);
-    if (status || c.steps.count == 0) break;
+    if (status || c.refused || c.steps.count == 0) break;
     status = hr2di_steps_take(&c.steps, scene, watch);
     c.rounds--;
   } while (!status);
   hr2di_alloc_free(&scene->alloc, c.steps.step);
+  if (c.refused && (!status || status == c.refused)) return tell_others(&c);
   if (!status) status = fail_noted(&c);
   if (status == HR2D_ENOMEM || hr2di_watch_status(watch))
     hr2di_scene_fail(scene, status, watch, "the checks");

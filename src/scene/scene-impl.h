@@ -45,6 +45,9 @@ typedef struct hr2di_patch {
   hr2d_segment scaled; /* divided by the unit; set by commit */
   double length;       /* of the scaled segment; set by commit */
   char *name;
+  uint32_t
+      feature; /* that of its file, counted from 1, which has no name; 0: none of several */
+  unsigned char looks_in; /* it is a side of a polygon, and its front is inside */
   hr2di_light *light;
 } hr2di_patch;
 

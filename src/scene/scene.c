@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The scene object: adding patches, committing, reading back. */
 #include <hr2d/hierarchy.h>
+#include <inttypes.h>
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -148,11 +149,15 @@ hr2d_status hr2di_patch_copy(const hr2d_allocator *alloc, const hr2di_patch *pat
   return HR2D_OK;
 }
 
-static hr2di_label make_label(size_t index, const char *name) {
+/* patch 3; patch 3 ("door"); without a name patch 3 (feature 2): its number is not in the file
+ */
+static hr2di_label make_label(size_t index, const char *name, uint32_t feature) {
   hr2di_label label;
   char numbered[32];
   snprintf(numbered, sizeof numbered, "patch %zu", index);
-  if (!name || strcmp(name, numbered) == 0)
+  if (feature)
+    snprintf(label.text, sizeof label.text, "%s (feature %" PRIu32 ")", numbered, feature);
+  else if (!name || strcmp(name, numbered) == 0)
     snprintf(label.text, sizeof label.text, "%s", numbered);
   else
     snprintf(label.text, sizeof label.text, "%s (%s)", numbered,
@@ -164,7 +169,8 @@ hr2di_label hr2di_patch_label(const hr2d_scene *scene, size_t patch) {
   const hr2di_symmetry *s = &scene->symmetry;
   const char *name = scene->patch[patch].name;
   hr2di_label label;
-  if (patch < hr2di_scene_cell(scene)) return make_label(patch, name);
+  if (patch < hr2di_scene_cell(scene))
+    return make_label(patch, name, scene->patch[patch].feature);
   if (patch >= s->motions * s->cell) {
     hr2di_message_copy(label.text, sizeof label.text, name);
     return label;
@@ -172,12 +178,12 @@ hr2di_label hr2di_patch_label(const hr2d_scene *scene, size_t patch) {
   static const char of[] = "an image of ";
   memcpy(label.text, of, sizeof of);
   hr2di_message_copy(label.text + sizeof of - 1, sizeof label.text - sizeof of + 1,
-                     make_label(patch % s->cell, name).text);
+                     make_label(patch % s->cell, name, scene->patch[patch].feature).text);
   return label;
 }
 
 hr2di_label hr2di_new_patch_label(const hr2d_scene *scene, const char *name) {
-  return make_label(scene->patches, name);
+  return make_label(scene->patches, name, 0);
 }
 
 static hr2d_status check_values(hr2d_scene *scene, const char *label, const char *what,
@@ -238,7 +244,7 @@ hr2d_status hr2di_scene_add(hr2d_scene *scene, const hr2d_patch *patch,
     return hr2di_message_fail(&scene->message, HR2D_ESTATE,
                               "a committed scene takes no more patches");
   const size_t front = scene->patches;
-  const hr2di_label label = make_label(front, patch->name);
+  const hr2di_label label = make_label(front, patch->name, 0);
   hr2d_status status = check_segment(scene, patch, label.text);
   if (!status) status = check_light(scene, patch, thermal, label.text);
   if (!status)
@@ -254,7 +260,7 @@ hr2d_status hr2d_scene_add(hr2d_scene *scene, const hr2d_patch *patch, size_t *i
 
 hr2d_status hr2di_scene_add_alike(hr2d_scene *scene, const hr2d_patch *patch, size_t like) {
   hr2d_status status =
-      check_segment(scene, patch, make_label(scene->patches, patch->name).text);
+      check_segment(scene, patch, make_label(scene->patches, patch->name, 0).text);
   if (status) return status;
   hr2di_light *light = scene->patch[like].light;
   light->users++;

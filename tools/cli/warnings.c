@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/warnings.h"
 
+#include <math.h>
+#include <stdio.h>
+
 #include "output/complain.h"
 #include "output/progress.h"
 
@@ -12,6 +15,7 @@ typedef struct finder {
   const hr2d_scene *scene;
   warnings *w;
   int loud;
+  double narrowest[HR2D_WARNING_COUNT], widest[HR2D_WARNING_COUNT]; /* of gaps, by code */
 } finder;
 
 static json_t *entry(const hr2d_scene *scene, const hr2d_warning *x) {
@@ -27,11 +31,24 @@ static json_t *entry(const hr2d_scene *scene, const hr2d_warning *x) {
 }
 
 static hr2d_status take(void *ctx, const hr2d_warning *x) {
-  const finder *f = ctx;
+  finder *f = ctx;
+  if (x->gap > 0 && !(f->narrowest[x->code] <= x->gap && f->widest[x->code] > 0))
+    f->narrowest[x->code] = x->gap;
+  f->widest[x->code] = fmax(f->widest[x->code], x->gap);
   json_push(&f->w->list, entry(f->scene, x));
   if (f->w->count[x->code]++ < MOST_LINES && f->loud)
     complain(f->o->scene, "warning: %s", x->text);
   return HR2D_OK;
+}
+
+/* Gaps have their range: who chooses a tolerance for all has to know it. */
+static void tell_rest(const finder *f, hr2d_warning_code code) {
+  char range[64] = "";
+  if (f->widest[code] > 0)
+    snprintf(range, sizeof range, ", in all from %.2g to %.2g wide", f->narrowest[code],
+             f->widest[code]);
+  complain(f->o->scene, "warning: %zu more of \"%s\"%s; --json has them all",
+           f->w->count[code] - MOST_LINES, hr2d_warning_name(code), range);
 }
 
 static size_t count_rest(const finder *f) {
@@ -39,9 +56,7 @@ static size_t count_rest(const finder *f) {
   for (int code = 0; code < HR2D_WARNING_COUNT; code++) {
     const size_t of_code = f->w->count[code];
     count += of_code;
-    if (of_code > MOST_LINES && f->loud)
-      complain(f->o->scene, "warning: %zu more of \"%s\"; --json has them all",
-               of_code - MOST_LINES, hr2d_warning_name((hr2d_warning_code)code));
+    if (of_code > MOST_LINES && f->loud) tell_rest(f, (hr2d_warning_code)code);
   }
   return count;
 }
