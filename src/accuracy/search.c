@@ -103,6 +103,8 @@ static void note_errors(hr2di_search *s, const hr2di_error_pair *errors) {
   hr2d_account *a = &s->account;
   s->error = worst_of(errors, s->target.norm);
   s->cut_off = errors->cut_off[s->target.norm == HR2D_NORM_SUP];
+  s->cut_off_patch = errors->cut_off_patch;
+  s->cut_off_part = errors->cut_off_part;
   s->rounding = errors->rounding[s->target.norm == HR2D_NORM_SUP];
   const hr2d_error none = {NAN, NAN};
   a->average = errors->average;

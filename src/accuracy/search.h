@@ -23,7 +23,9 @@ typedef struct hr2di_search {
   hr2di_beam_cache beam_cache; /* of patches, if they are kept */
   hr2d_account account;        /* of the best, with all times */
   hr2d_error error;            /* of the best, the larger one of B and H */
-  double cut_off;              /* what of it images may make that are cut off */
+  double cut_off;              /* what of it images may make that are cut off, */
+  size_t cut_off_patch;        /* most of the average of this patch, */
+  double cut_off_part;         /* where it is this part of the largest value */
   double rounding;             /* the part of its bound that is rounding */
   hr2di_message message;
 } hr2di_search;

@@ -57,15 +57,16 @@ static int raise_clusters(const hr2di_search *s, hr2di_resolution *fineness, dou
          !hr2di_strategy_raise_clusters(fineness, s->best.clustered, error);
 }
 
-/* More cells are what helps: so the images reach as many times as far. */
+/* More cells are what helps: so the images reach as many times as far.  The name of the patch
+   is last, where it may be cut. */
 static void give_cut_off(hr2di_search *s) {
   const hr2di_symmetry *by = &s->scene->symmetry;
-  char text[sizeof s->account.reason];
-  snprintf(
-      text, sizeof text,
-      "light from beyond %u images of the period, up to %.1e of a view, may make that much: "
-      "draw 4 or more cells as one period",
-      by->copies, by->rest);
+  char text[sizeof s->account.reason + sizeof(hr2di_label)];
+  snprintf(text, sizeof text,
+           "draw 4 or more cells as one period: beyond %u images up to %.1e of a view, %.1e of "
+           "the largest value, may be missing at %s",
+           by->copies, by->rest, s->cut_off_part,
+           hr2di_patch_label(s->scene, s->cut_off_patch).text);
   give_reason(s, text);
 }
 

@@ -42,7 +42,7 @@ typedef struct factors {
 
 /* The largest error of an average of B or H, relative to the average as corrected by it, or to
    the floor; with roundings relative to the least that the average may be. */
-static double worst_average(const hr2di_estimator *e, int irradiance, factors f) {
+static double find_worst(const hr2di_estimator *e, int irradiance, factors f, size_t *patch) {
   const size_t bands = e->eq.transport.bands, patches = e->values / bands;
   double worst = 0;
   for (size_t b = 0; b < bands; b++) {
@@ -57,10 +57,17 @@ static double worst_average(const hr2di_estimator *e, int irradiance, factors f)
       const double more = f.rounding > 0 ? f.rounding * fabs(e->rounding[irradiance][at]) : 0;
       const double sum = fmax(f.error * fabs(error), past) + more + upper;
       const double lower = f.rounding > 0 ? is - sum : is + error;
-      if (sum > 0) worst = fmax(worst, sum / fmax(lower, floor));
+      if (!(sum > 0) || !(sum / fmax(lower, floor) > worst)) continue;
+      worst = sum / fmax(lower, floor);
+      *patch = k;
     }
   }
   return worst;
+}
+
+static double worst_average(const hr2di_estimator *e, int irradiance, factors f) {
+  size_t patch;
+  return find_worst(e, irradiance, f, &patch);
 }
 
 /* The largest error at a point, relative to the largest value of the band: what coefficients
@@ -76,6 +83,22 @@ static double worst_point(const hr2di_estimator *e, int irradiance, factors f) {
     if (sum > 0) worst = fmax(worst, sum / e->largest[irradiance][b]);
   }
   return worst;
+}
+
+/* What images that are cut off may make of averages: where most, and how much. */
+static void note_cut_off(const hr2di_estimator *e, int irradiance, hr2di_error_pair *errors) {
+  const factors past = {.past = 1};
+  const size_t bands = e->eq.transport.bands;
+  size_t patch = 0;
+  const double worst = find_worst(e, irradiance, past, &patch);
+  errors->cut_off[1] = fmax(errors->cut_off[1], worst_point(e, irradiance, past));
+  if (!(worst > errors->cut_off[0])) return;
+  errors->cut_off[0] = worst;
+  errors->cut_off_patch = patch;
+  errors->cut_off_part = 0;
+  for (size_t b = 0; b < bands; b++)
+    errors->cut_off_part = fmax(errors->cut_off_part, e->past[irradiance][patch * bands + b] /
+                                                          e->largest[irradiance][b]);
 }
 
 static double largest_of(const hr2di_estimator *e, const double *of, int irradiance) {
@@ -115,11 +138,8 @@ static int reflects_light(const hr2di_estimator *e) {
 /* Estimates of averages, which are off by no less than `doubt`. */
 static void estimate_averages(const hr2di_estimator *e, hr2di_error_pair *errors) {
   const double unknown = HUGE_VAL, of_h = reflects_light(e) ? e->level_uncertainty : 0;
-  const factors all = {.error = 1, .past = 1}, past = {.past = 1};
-  for (int h = 0; h < 2 && e->tail; h++) {
-    errors->cut_off[0] = fmax(errors->cut_off[0], worst_average(e, h, past));
-    errors->cut_off[1] = fmax(errors->cut_off[1], worst_point(e, h, past));
-  }
+  const factors all = {.error = 1, .past = 1};
+  for (int h = 0; h < 2 && e->tail; h++) note_cut_off(e, h, errors);
   errors->average = (hr2d_error){fmax(worst_average(e, 0, all), e->level_uncertainty), unknown};
   errors->irradiance = (hr2d_error){fmax(worst_average(e, 1, all), of_h), unknown};
   errors->sup = errors->irradiance_sup = (hr2d_error){unknown, unknown};

@@ -13,9 +13,11 @@ typedef struct hr2di_error_pair {
   hr2d_error average; /* of the worst patch, or of the one that importance is asked for */
   hr2d_error sup;     /* infinite unless the target asks for points, */
   hr2d_error irradiance, irradiance_sup; /* and so is the one of H */
-  double cut_off[2];  /* what of estimates of averages and at points is of images of a period
-                         that are cut off */
-  double rounding[2]; /* what of the bounds of averages and at points is rounding */
+  double cut_off[2];    /* what of estimates of averages and at points is of images of a period
+                           that are cut off; */
+  size_t cut_off_patch; /* the patch whose average has most of that, relative to it, */
+  double cut_off_part;  /* and what that is of the largest value of its band */
+  double rounding[2];   /* what of the bounds of averages and at points is rounding */
 } hr2di_error_pair;
 
 /* The finer operator K⁺ on the trees and links of a graded solve, for solutions on them. */

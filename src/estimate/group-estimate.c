@@ -16,6 +16,10 @@ static void take_errors(hr2di_error_pair *to, const hr2di_error_pair *of) {
   take_larger(&to->sup, of->sup);
   take_larger(&to->irradiance, of->irradiance);
   take_larger(&to->irradiance_sup, of->irradiance_sup);
+  if (of->cut_off[0] > to->cut_off[0]) {
+    to->cut_off_patch = of->cut_off_patch;
+    to->cut_off_part = of->cut_off_part;
+  }
   for (int k = 0; k < 2; k++) {
     to->cut_off[k] = fmax(to->cut_off[k], of->cut_off[k]);
     to->rounding[k] = fmax(to->rounding[k], of->rounding[k]);

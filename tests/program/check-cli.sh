@@ -888,4 +888,35 @@ check "the stub ends on the floor" lacks '"stub") ends at' "$work/err"
 run info "$work/loose.geojson" --snap 100
 check "--snap refuses to drop all" grep -q 'no patch is longer than the tolerance' "$work/err"
 
+# ---- a row of tubes, polygons, between two plates: far images show between the tubes here and there
+tubes() { # tubes CELLS: of a period, with tubes of 16 sides
+  awk -v cells="$1" 'BEGIN {
+    print "{\"type\": \"FeatureCollection\", \"hr2d\": {\"period\": [" 2.5 * cells ", 0]}, \"features\": ["
+    line = "{\"type\": \"Feature\", \"properties\": {%s}, \"geometry\": {\"type\": \"%s\", \"coordinates\": "
+    printf line "[[%g, 2], [0, 2]]}},", "\"name\": \"lamp\", \"emission\": 1", "LineString", 2.5 * cells
+    printf line "[[0, -2], [%g, -2]]}}", "\"name\": \"lower\"", "LineString", 2.5 * cells
+    for (c = 0; c < cells; c++) {
+      printf "," line "[[", "\"name\": \"tube\", \"faces\": \"out\"", "Polygon"
+      for (k = 0; k <= 16; k++) {
+        a = (k % 16 + .5) * atan2(0, -1) / 8
+        printf "%s[%.15g, %.15g]", k ? ", " : "", 1.25 + 2.5 * c + .5 * cos(a), .5 * sin(a)
+      }
+      printf "]]}}"
+    }
+    print "]}" }'
+}
+missing() { # missing CELLS: $found becomes what is missing of the largest value, and the relative error
+  tubes "$1" >"$work/tubes.geojson"
+  expect 1 'draw 4 or more cells as one period: beyond [0-9]* images up to .* may be missing at patch [0-9]* ("tube/' \
+    solve "$work/tubes.geojson" --target-error 1e-7
+  found=$(sed -n 's/.*of a view, \([0-9.e-]*\) of the largest.*; the error is about \([0-9.e-]*\), .*/\1 \2/p' "$work/err")
+}
+missing 1
+one=$found
+missing 4
+four=$found
+check "the message says of what, how much, and what helps; $one, $four" \
+  awk -v one="$one" -v four="$four" 'BEGIN { split(one, a); split(four, b)
+    exit !(a[1] > 0 && a[1] <= a[2] && a[2] < 2e-3 && b[2] < a[2] / 2) }'
+
 summary check-cli

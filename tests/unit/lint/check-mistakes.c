@@ -130,7 +130,7 @@ static const mistake mistakes[] = {
     {"bands of two lengths",
      COLLECTION(LINE("\"emission\":[1,2]", "[[0,0],[1,0]]") "," LINE("\"reflectance\":[1,0,0]",
                                                                      "[[0,0],[0,1]]")),
-     REFUSED, "where patch 0 has 2 bands"},
+     REFUSED, "where patch 0 (feature 1) has 2 bands"},
     /* 35 */
     {"a hole that is its outline",
      COLLECTION(LAMP "," FEATURE("", "Polygon", "[" SQUARE "," SQUARE "]")), HR2D_WARNING_UNLIT,
