@@ -105,7 +105,6 @@ int extent_choose(picture *p) {
   const grid_box *given = &p->run->options->box;
   const size_t count = hr2d_scene_patches(p->run->scene);
   const double unit = hr2d_scene_unit(p->run->scene);
-  layout_bounds(p);
   if (given->given) {
     show(p,
          (hr2d_point){fmin(given->side[0], given->side[2]) / unit,

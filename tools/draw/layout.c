@@ -167,6 +167,7 @@ static void set_page(picture *p, margins m) {
 }
 
 int layout_make(picture *p) {
+  layout_bounds(p);
   const int status = extent_choose(p);
   if (status) return status;
   set_page(p, choose_margins(p));
