@@ -65,6 +65,7 @@ dist_scenes_DATA = \
 	examples/scenes/enfilade.geojson \
 	examples/scenes/furnace-enclosure.geojson \
 	examples/scenes/furnace-flue-gas.geojson \
+	examples/scenes/furnace-flame.geojson \
 	examples/scenes/furnace-gas.geojson \
 	examples/scenes/furnace-walls.geojson \
 	examples/scenes/furnace.geojson \

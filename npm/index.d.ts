@@ -321,11 +321,14 @@ export interface Power {
 }
 
 export interface Gas {
+  /** Its number, in the order of the file, from 0. */
+  gas: number;
+  band: number;
   /** Per unit of length. */
   absorption: number | null;
   /** Of a black body as hot as the gas. */
   emission: number | null;
-  /** That it gives to the patches. */
+  /** That it gives to patches and to other gases. */
   heat: number | null;
 }
 

@@ -102,6 +102,7 @@ libhr2d_core_la_SOURCES = \
 	src/scene/reading-notes.c src/scene/reading-notes.h \
 	src/scene/scene.c \
 	src/scene/scene-impl.h \
+	src/scene/regions.c src/scene/regions.h \
 	src/scene/relit-scene.c src/scene/relit-scene.h \
 	src/scene/frozen-temperatures.c src/scene/frozen-temperatures.h \
 	src/scene/side-layers.c src/scene/side-layers.h \
@@ -194,6 +195,8 @@ libhr2d_core_la_SOURCES = \
 	src/blocks/distant.c \
 	src/blocks/line-frame.c \
 	src/blocks/line-vector.h \
+	src/blocks/gas-cells.c src/blocks/gas-cells.h \
+	src/blocks/gas-shares.c \
 	src/blocks/gas-lines.c src/blocks/gas-lines.h \
 	src/blocks/lines.c src/blocks/lines.h \
 	src/blocks/moment-batches.h \
@@ -287,6 +290,7 @@ libhr2d_core_la_SOURCES = \
 	src/solve/gather-links.c src/solve/gather-links.h \
 	src/solve/gather-one-way.c src/solve/gather-one-way.h \
 	src/solve/first-guess.c src/solve/first-guess.h \
+	src/solve/gas-heat.c src/solve/gas-heat.h \
 	src/solve/gas-light.c src/solve/gas-light.h \
 	src/solve/gas-rows.c src/solve/gas-rows.h \
 	src/solve/heat-balance.c src/solve/heat-balance.h \
@@ -311,6 +315,7 @@ libhr2d_core_la_SOURCES = \
 	src/mesh/events-impl.h \
 	src/mesh/grader.h \
 	src/mesh/grader-team.c \
+	src/mesh/gas-marks.c \
 	src/mesh/grading-marks.c \
 	src/mesh/refine-marked.c src/mesh/refine-marked.h \
 	src/mesh/derivative-jumps.c src/mesh/derivative-jumps.h \

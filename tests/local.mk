@@ -87,6 +87,8 @@ SUITES = \
 	tests/unit/solve/check-gas.c \
 	tests/unit/solve/check-gas-bands.c \
 	tests/unit/solve/check-gas-clusters.c \
+	tests/unit/solve/check-gas-rays.c \
+	tests/unit/solve/check-gas-regions.c \
 	tests/unit/solve/check-solve.c \
 	tests/unit/solve/check-background.c \
 	tests/unit/solve/check-continuous-sky.c \

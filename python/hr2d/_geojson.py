@@ -70,6 +70,31 @@ def text_of(shape: Any, properties: Dict[str, Any]) -> bytes:
     return _dump(collection, given.get("name") or "a patch")
 
 
+def medium_of(absorption: Any, temperature: Any, flux: Any, emission: Any,
+              section: Any) -> Dict[str, Any]:
+    """A medium with what is given of it."""
+    medium = {"absorption": absorption, "temperature": temperature, "flux": flux,
+              "emission": emission, "section": section}
+    return {key: value for key, value in medium.items() if value is not None}
+
+
+def region_of(ring: Any, medium: Any) -> bytes:
+    """The text of a gas within a ring, which may be open."""
+    closed = ring if ring and ring[0] == ring[-1] else ring + ring[:1]
+    return _dump({"type": "FeatureCollection", "features": [
+        {"type": "Feature", "properties": {"medium": medium},
+         "geometry": {"type": "Polygon", "coordinates": [closed]}}]}, "a medium")
+
+
+def _regions(scene: Any) -> Any:
+    """The features that are gases, as they were given."""
+    for text in _texts(scene):
+        features = text.get("features") if isinstance(text, dict) else None
+        for feature in features if isinstance(features, list) else []:
+            if isinstance(feature, dict) and (feature.get("properties") or {}).get("medium"):
+                yield feature
+
+
 def _plain_number(values: Any) -> Any:
     """A number where one holds for all bands."""
     values = [float(value) for value in values]
@@ -175,6 +200,7 @@ def collection_of(scene: Any) -> Dict[str, Any]:
                 for k, (name, ends) in enumerate(zip(scene.names, scene.segments))
                 if k <= scene.other_side[k]]
     features += [_line(ends, {"sides": "mirror"}) for ends in scene.mirrors]
+    features += _regions(scene)
     members = _outside(scene)
     return {"type": "FeatureCollection", **({"hr2d": members} if members else {}),
             "features": features}

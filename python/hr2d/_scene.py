@@ -18,7 +18,7 @@ from ._arrays import Array, doubles, frozen, view, writable
 from ._calls import POLL, Call, ProgressFunction, keep_exception, owned, thread_count
 from ._enclosure import Enclosure
 from ._errors import SceneError, StateError, error_of
-from ._geojson import collection_of, outside_of, text_of
+from ._geojson import collection_of, medium_of, outside_of, region_of, text_of
 from ._hr2d import ffi, lib
 from ._law import Law
 from ._links import Links, Study
@@ -235,17 +235,38 @@ class Scene:
         >>> scene.absorption, scene.solve(error=1e-9).gas.heat.shape
         (array([1.]), (1,))
         """
-        medium = {"absorption": absorption, "temperature": temperature, "flux": flux,
-                  "emission": emission, "section": section}
-        self.add_text(outside_of({"medium": {k: v for k, v in medium.items() if v is not None}}))
+        self.add_text(outside_of({"medium": medium_of(absorption, temperature, flux, emission,
+                                                      section)}))
+
+    def add_medium(self, border: Any, absorption: Values, *,
+                   temperature: Optional[float] = None, flux: Optional[float] = None,
+                   emission: Optional[Values] = None, section: Optional[str] = None) -> None:
+        """Fills a polygon, `border` of the shape (points, 2), with a gas as set_medium() has it.
+
+        Where borders overlap, the gas counts that was added last.  Needs a closed scene.
+
+        >>> scene = square()
+        >>> scene.set_medium(.1, emission=0)
+        >>> scene.add_medium([(.2, .2), (.8, .2), (.5, .9)], 2, emission=1)
+        >>> scene.absorptions.tolist(), len(scene.solve(error=1e-6).gases)
+        ([[0.1], [2.0]], 2)
+        """
+        ring = np.asarray(border, dtype=np.float64).tolist()
+        self.add_text(region_of(ring, medium_of(absorption, temperature, flux, emission, section)))
 
     @cached_property
     def absorption(self) -> Array:
-        """κ of the gas per scene length, (bands,); 0 without one."""
+        """κ of the gas, or of the first one, per scene length, (bands,); 0 without one."""
+        return frozen(self.absorptions[0] if len(self.absorptions) else np.zeros(self.bands))
+
+    @cached_property
+    def absorptions(self) -> Array:
+        """κ of all gases per scene length, (gases, bands)."""
         self.commit()
-        gases = lib.hr2d_scene_gases(self._raw)
-        return frozen(np.array([lib.hr2d_scene_absorption(self._raw, 0, band) if gases else 0
-                                for band in range(self.bands)], dtype=np.float64))
+        gases = range(lib.hr2d_scene_gases(self._raw))
+        return frozen(np.array([[lib.hr2d_scene_absorption(self._raw, gas, band)
+                                 for band in range(self.bands)] for gas in gases],
+                               dtype=np.float64).reshape(len(gases), self.bands))
 
     def add_mirror(self, a: Any, b: Any) -> None:
         """Adds a mirror: a line through two points, at which the scene is reflected."""

@@ -46,12 +46,13 @@ class Power(NamedTuple):
 
 
 class Gas(NamedTuple):
-    """What a solution says of the gas, per band."""
+    """What a solution says of a gas, per band."""
 
     emission: Array
     """E_g: the radiosity of a black body as hot as the gas."""
     heat: Array
-    """What it emits to patches less what it absorbs of their light, per length of the enclosure."""
+    """What it gives to patches and to other gases, less what it gets from them, per length of the
+    enclosure."""
 
 
 class Points(NamedTuple):
@@ -361,13 +362,20 @@ class Solution:
 
     @cached_property
     def gas(self) -> Optional[Gas]:
-        """The gas; None without one."""
-        if not lib.hr2d_scene_gases(self.scene._raw):
-            return None
+        """The gas, or the first one; None without one."""
+        return self.gases[0] if self.gases else None
+
+    @cached_property
+    def gases(self) -> Tuple[Gas, ...]:
+        """All gases, in their order."""
+        return tuple(self._gas(gas) for gas in range(lib.hr2d_scene_gases(self.scene._raw)))
+
+    def _gas(self, gas: int) -> Gas:
         numbers = np.empty((2, self.scene.bands))
         with Call() as call:
             for band in range(self.scene.bands):
-                call.check(lib.hr2d_solution_gas(self._raw, 0, band, writable(numbers[0, band:]),
+                call.check(lib.hr2d_solution_gas(self._raw, gas, band,
+                                                 writable(numbers[0, band:]),
                                                  writable(numbers[1, band:])))
         return Gas(frozen(numbers[0]), frozen(numbers[1]))
 

@@ -1,4 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
+import json
+
 import numpy as np
 import pytest
 
@@ -151,3 +153,26 @@ def test_without_gas_there_is_none():
     scene = hr2d.Scene()
     scene.add([(0, 0), (1, 0)], emission=1)
     assert scene.solve().gas is None and (scene.absorption == 0).all()
+
+
+def test_gases_have_borders():
+    """A border within one gas changes nothing; a hotter flame gives more than it gets."""
+    one, parted = hr2d.Scene(), hr2d.Scene()
+    for scene in (one, parted):
+        scene.add([(0, 0), (1, 0), (1, 1), (0, 1), (0, 0)], reflectance=.5)
+        scene.set_medium(1, emission=1)
+    parted.add_medium([(.2, .3), (.7, .1), (.8, .8)], 1, emission=1)
+    assert parted.absorptions.tolist() == [[1], [1]] and len(parted) == 4
+    b, c = (scene.solve(error=1e-9) for scene in (one, parted))
+    assert c.B == pytest.approx(b.B, rel=1e-9)
+    assert sum(gas.heat[0] for gas in c.gases) == pytest.approx(b.gas.heat[0], rel=1e-9)
+    hot = hr2d.Scene()
+    hot.add_text(json.dumps(parted.to_geojson()))
+    assert hot.solve(error=1e-9).B == pytest.approx(b.B, rel=1e-9)
+    hot = hr2d.Scene()
+    hot.add_text(json.dumps(parted.to_geojson()))
+    hot.add_medium([(.4, .4), (.6, .4), (.5, .6)], 5, emission=4, section="long")
+    s = hot.solve(error=1e-6)
+    assert s.gases[2].heat > 0 and (s.B > b.B).all()
+    with pytest.raises(hr2d.Error, match="fewer than three|needs 4 positions"):
+        hr2d.Scene().add_medium([(0, 0), (1, 0)], 1)

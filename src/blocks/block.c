@@ -7,6 +7,7 @@
 
 #include "base/alloc.h"
 #include "base/choices.h"
+#include "blocks/gas-cells.h"
 #include "geometry/bernstein-ellipse.h"
 #include "geometry/predicates.h"
 #include "geometry/vector.h"
@@ -23,9 +24,14 @@ hr2d_status hr2di_integrator_init(hr2di_integrator *w, const hr2d_hierarchy *hie
                           .watch = watch,
                           .seen.alloc = *alloc};
   hr2di_basis_init(&w->basis, order);
-  if (hr2di_scene_has_gas(scene)) {
+  w->has_gas = hr2di_scene_has_gas(scene);
+  if (w->has_gas) {
     w->absorption = hr2di_scene_scaled_range(scene).most;
     w->section = hr2di_scene_section(scene);
+  }
+  if (hr2di_scene_regions(scene)) {
+    w->cells = hr2di_alloc_zero(alloc, 1, sizeof *w->cells);
+    if (!w->cells || hr2di_gas_cells_init(w->cells, scene, alloc, order)) return HR2D_ENOMEM;
   }
   w->rule = hr2di_alloc(alloc, HR2DI_RULE_POINTS, sizeof *w->rule);
   hr2d_status status = hr2di_integrator_points(w, order + 2, 0);
@@ -48,6 +54,8 @@ void hr2di_integrator_clear(hr2di_integrator *w) {
   hr2di_line_class_list_clear(&w->seen);
   hr2di_alloc_free(&w->alloc, w->vertex);
   hr2di_alloc_free(&w->alloc, w->trapezoid);
+  if (w->cells) hr2di_gas_cells_clear(w->cells);
+  hr2di_alloc_free(&w->alloc, w->cells);
 }
 
 hr2d_status hr2di_block_of_vertices(hr2di_integrator *w, const hr2di_line_frame *f,
@@ -102,6 +110,13 @@ static hr2d_status add_sight(hr2di_integrator *w, const hr2di_line_frame *f,
   return hr2di_block_of_vertices(w, f, w->vertex, s->rights, s->lefts, block);
 }
 
+static hr2d_status set_frame(hr2di_integrator *w, const hr2d_hierarchy *h, hr2d_pair pair,
+                             hr2di_line_frame *f) {
+  hr2di_line_frame_init(f, h, pair);
+  f->has_gas = w->absorption > 0;
+  return w->cells && w->cells->is_mixed ? hr2di_gas_cells_frame(w->cells, f) : HR2D_OK;
+}
+
 /* Where something bounds the view but the elements. */
 static hr2d_status add_shaded(hr2di_integrator *w, hr2d_pair pair, double *block) {
   const hr2d_hierarchy *h = w->hierarchy;
@@ -110,8 +125,7 @@ static hr2d_status add_shaded(hr2di_integrator *w, hr2d_pair pair, double *block
                                   hr2di_axis_of(patch[h->element[pair.second].patch].scaled)};
   hr2di_line_frame f;
   hr2d_status status = HR2D_OK;
-  hr2di_line_frame_init(&f, h, pair);
-  f.has_gas = w->absorption > 0;
+  status = set_frame(w, h, pair, &f);
   for (size_t k = 0; k < w->seen.count && !status; k++) {
     const hr2di_line_class s = hr2di_line_class_list_at(&w->seen, k);
     status = add_sight(w, &f, &lines, &s, block);
@@ -142,7 +156,17 @@ static hr2d_status find_lines(hr2di_integrator *w, hr2d_pair pair, double area,
 /* At order 1 a block is the exchange area, which is to have all digits. */
 static int can_be_distant(const hr2di_integrator *w, const hr2d_element *i,
                           const hr2d_element *j) {
+  if (w->cells && w->cells->is_mixed) return 0;
   return w->order > 1 && w->absorption * fmax(i->length, j->length) <= HR2DI_CHOICE_GAS_DEPTH;
+}
+
+/* Finds the gas between two elements, or that there are several. */
+static hr2d_status find_gas(hr2di_integrator *w, hr2d_segment i, hr2d_segment j) {
+  const hr2d_status status = hr2di_gas_cells_begin(w->cells, i, j, w->watch);
+  w->absorption = w->cells->is_mixed
+                      ? hr2di_scene_scaled_range(w->hierarchy->scene).most
+                      : hr2di_scene_scaled_absorption(w->hierarchy->scene, w->cells->gas);
+  return status;
 }
 
 /* hr2di_block() for a pair in order; `given` is the same pair as it was asked for. */
@@ -160,6 +184,8 @@ static hr2d_status integrate(hr2di_integrator *w, hr2d_pair pair, hr2d_pair give
   if (status || facing == HR2DI_FACING_NONE) return status;
   status = find_lines(w, given, area, &view);
   if (status || view == HR2DI_BLOCKED) return status;
+  if (w->cells) status = find_gas(w, s, t);
+  if (status) return status;
   if (view == HR2DI_PARTIAL) return add_shaded(w, pair, block);
   const int whole = facing == HR2DI_FACING_FULL;
   const double m[] = {whole ? hr2di_ellipse_min(s, t) : 0, whole ? hr2di_ellipse_min(t, s) : 0};
@@ -172,9 +198,8 @@ static hr2d_status integrate(hr2di_integrator *w, hr2d_pair pair, hr2d_pair give
     return hr2di_watch_status(w->watch);
   }
   hr2di_line_frame f;
-  hr2di_line_frame_init(&f, h, pair);
-  f.has_gas = w->absorption > 0;
-  return add_clear(w, &f, block);
+  status = set_frame(w, h, pair, &f);
+  return status ? status : add_clear(w, &f, block);
 }
 
 static void transpose(double *block, size_t order) {
@@ -192,6 +217,7 @@ static void swap_lost(hr2di_integrator *w) {
     w->lost[0][l] = w->lost[1][l];
     w->lost[1][l] = kept;
   }
+  if (w->cells) hr2di_gas_cells_swap(w->cells);
 }
 
 hr2d_status hr2di_block(hr2di_integrator *w, hr2d_pair pair, double area, double *block,
@@ -200,12 +226,14 @@ hr2d_status hr2di_block(hr2di_integrator *w, hr2d_pair pair, double area, double
   const hr2d_pair swap = {pair.second, pair.first};
   const int in_order = element[pair.first].patch <= element[pair.second].patch;
   memset(block, 0, w->order * w->order * sizeof *block);
-  if (w->absorption > 0) memset(w->lost, 0, sizeof w->lost);
+  if (w->has_gas) memset(w->lost, 0, sizeof w->lost);
+  if (w->cells) hr2di_gas_cells_forget(w->cells);
   hr2di_moments_begin(&w->moments);
   const hr2d_status status = integrate(w, in_order ? pair : swap, pair, area, block, distant);
   if (status) return status;
   hr2di_moments_end(&w->moments, block);
   if (!in_order) transpose(block, w->order);
-  if (!in_order && w->absorption > 0) swap_lost(w);
+  if (w->cells) hr2di_gas_cells_take(w->cells, w->lost);
+  if (!in_order && w->has_gas) swap_lost(w);
   return hr2di_watch_status(w->watch);
 }

@@ -54,8 +54,10 @@ typedef struct hr2di_integrator {
   size_t vertex_capacity;
   hr2di_trapezoid *trapezoid;
   size_t trapezoid_capacity;
-  uint64_t kernels;  /* values of G, or of its integral over the lines of one direction */
-  double absorption; /* κ of the gas per unit of the scene; 0: there is none */
+  uint64_t kernels; /* values of G, or of its integral over the lines of one direction */
+  int has_gas;
+  struct hr2di_gas_cells *cells; /* NULL: one gas is everywhere */
+  double absorption; /* κ of the gas per unit of the scene; 0: there is none between a pair */
   hr2d_section section;
   double lost[2][HR2D_MAX_ORDER]; /* with gas, of the last pair: ∫∫ G V D φ_l(x) dy dx for the
                                      part D of the light that is absorbed, on i and on j */

@@ -11,7 +11,8 @@
 #include <math.h>
 
 #include "blocks/block.h"
-#include "blocks/gas-lines.h"
+#include "blocks/gas-cells.h"
+#include "geometry/vector.h"
 
 /* For the constant that the bound leaves out, which few points have no room for. */
 #define MARGIN 0.3
@@ -51,10 +52,20 @@ static double ellipse(double m) {
 typedef struct outline {
   double across[2][2]; /* per element and end; 1 where nothing depends on e */
   double cosine;
-  double ratio; /* |e0|/|e1| */
+  double ratio;                 /* |e0|/|e1| */
+  const hr2di_gas_cells *cells; /* with borders that the lines cross; or NULL: */
+  hr2d_point e[2];              /* directions of length 1 */
 } outline;
 
-static outline outline_of(const hr2di_trapezoid *t) {
+static int is_mixed(const hr2di_integrator *w) {
+  return w->cells && w->cells->is_mixed;
+}
+
+static hr2d_point unit_of(const hr2di_vector *e, double length) {
+  return (hr2d_point){e->x / length, e->y / length};
+}
+
+static outline outline_of(const hr2di_integrator *w, const hr2di_trapezoid *t) {
   const double length = hr2di_vector_length(&t->e[0]), other = hr2di_vector_length(&t->e[1]);
   outline o = {.cosine = hr2di_vector_dot(&t->e[0], &t->e[1]) / (length * other),
                .ratio = length / other};
@@ -62,6 +73,11 @@ static outline outline_of(const hr2di_trapezoid *t) {
     const hr2di_meeting *m = &t->on[k];
     o.across[k][0] = m->fixed == 3 ? 1 : m->across[0];
     o.across[k][1] = m->fixed == 3 ? 1 : m->across[1] * o.ratio;
+  }
+  if (is_mixed(w)) {
+    o.cells = w->cells;
+    o.e[0] = unit_of(&t->e[0], length);
+    o.e[1] = unit_of(&t->e[1], other);
   }
   return o;
 }
@@ -75,12 +91,25 @@ static double through_zero(double f, double g) {
   return limited_ratio(f + g, fabs(f - g));
 }
 
+/* The smallest ellipse through the direction of a border, along which depths have a pole. */
+static double nearest_border(const outline *o, double kappa) {
+  double least = HUGE_VAL;
+  for (size_t k = 0; k + 1 < o->cells->path.pieces; k++) {
+    const hr2d_point w = o->cells->along[k];
+    const double across[] = {fabs(hr2di_point_cross(o->e[0], w)),
+                             kappa * fabs(hr2di_point_cross(o->e[1], w))};
+    least = lesser(least, through_zero(across[0], across[1]));
+  }
+  return least;
+}
+
 /* The smallest ellipse through a singularity. */
 static double nearest(const outline *o, double kappa) {
   const double square = (1 - kappa) * (1 - kappa) + 2 * kappa * (1 - o->cosine);
   const double at_i = through_zero(o->across[0][0], kappa * o->across[0][1]);
   const double at_j = through_zero(o->across[1][0], kappa * o->across[1][1]);
-  return lesser(lesser(at_i, at_j), limited_ratio(1 + kappa, sqrt(square)));
+  const double all = lesser(lesser(at_i, at_j), limited_ratio(1 + kappa, sqrt(square)));
+  return o->cells ? lesser(all, nearest_border(o, kappa)) : all;
 }
 
 /* Chooses κ so that the nearest singularity is as far away as can be. */
@@ -219,6 +248,12 @@ static void add_gas(hr2di_integrator *w, const hr2di_trapezoid *t, choice chosen
     hr2di_gas_lines lines = {.weight = turn * rule->weight[q] * gap / (square * length)};
     for (size_t side = 0; side < 2; side++)
       set_places(&t->on[side], t->gap, 1, &f, &g, &lines.centre[side], &lines.half[side]);
+    if (is_mixed(w)) {
+      for (size_t vertex = 0; vertex < 2; vertex++)
+        hr2di_gas_cells_depths(w->cells, t, vertex, f, g, length);
+      hr2di_gas_cells_add(w, &lines, block);
+      continue;
+    }
     for (size_t vertex = 0; vertex < 2; vertex++)
       lines.depth[vertex] = hr2di_gas_depth(w, t, vertex, f, g, length);
     hr2di_gas_add(w, &lines, block);
@@ -275,13 +310,14 @@ static void halve(const hr2di_trapezoid *t, const outline *o, hr2di_trapezoid pa
 }
 
 /* Divides a trapezoid in two if that takes fewer points.  Returns 0 if not. */
-static int divide(const hr2di_trapezoid *t, const outline *o, size_t order, double digits,
-                  double points, hr2di_trapezoid part[2]) {
+static int divide(const hr2di_integrator *w, const hr2di_trapezoid *t, const outline *o,
+                  double digits, double points, hr2di_trapezoid part[2]) {
+  const size_t order = w->order;
   if (points <= 14 + (double)order) return 0;
   halve(t, o, part);
   if (points > MOST_POINTS) return 1;
   for (size_t k = 0; k < 2; k++) {
-    const outline half = outline_of(&part[k]);
+    const outline half = outline_of(w, &part[k]);
     points -= choose(&part[k], &half, order, digits).points;
   }
   return points > 0;
@@ -296,7 +332,7 @@ static hr2d_status add_trapezoid(hr2di_integrator *w, const hr2di_trapezoid *who
   stack[0] = *whole;
   while (count > 0) {
     const hr2di_trapezoid t = stack[--count];
-    const outline o = outline_of(&t);
+    const outline o = outline_of(w, &t);
     const int room = count + 2 <= STACK;
     if (o.cosine < WIDE && room) {
       hr2di_trapezoid_divide(&t, (const double[]){0.5, 0.5 * o.ratio}, &stack[count]);
@@ -307,11 +343,13 @@ static hr2d_status add_trapezoid(hr2di_integrator *w, const hr2di_trapezoid *who
     if (!(part > NEGLIGIBLE)) continue;
     const double digits = w->digits - (part < 1 ? logarithm(1 / part) : 0);
     choice chosen = choose(&t, &o, p, digits);
-    if (room && divide(&t, &o, p, digits, chosen.points, &stack[count])) {
+    if (room && divide(w, &t, &o, digits, chosen.points, &stack[count])) {
       count += 2;
       continue;
     }
-    const double more = w->absorption > 0 ? hr2di_gas_points(w, &t) : 0;
+    const double more = is_mixed(w)         ? hr2di_gas_cells_points(w->cells, &t)
+                        : w->absorption > 0 ? hr2di_gas_points(w, &t)
+                                            : 0;
     if (more > MOST_POINTS && room) {
       halve(&t, &o, &stack[count]);
       count += 2;
@@ -335,6 +373,8 @@ hr2d_status hr2di_block_add_lines(hr2di_integrator *w, const hr2di_trapezoid *t,
   for (size_t k = 0; k < count; k++) area += t[k].area;
   hr2d_status status = HR2D_OK;
   for (size_t k = 0; k < count && !status && area > 0; k++)
-    if (t[k].gap[0] > 0 || t[k].gap[1] > 0) status = add_trapezoid(w, &t[k], area, block);
+    if (t[k].gap[0] > 0 || t[k].gap[1] > 0)
+      status = is_mixed(w) ? hr2di_gas_cells_divide(w, &t[k], add_trapezoid, area, block)
+                           : add_trapezoid(w, &t[k], area, block);
   return status;
 }

@@ -94,7 +94,7 @@ static double span_from(const hr2di_integrator *w, double depth, double least) {
 /* Points beyond the order, which products of two polynomials take: for e^−x over a span, and
    for the singularity at 0 on the ellipse around depths from `least` to `most`.  On the first
    piece x³ ln x leaves n⁻⁸/10 of SHALLOW³ with n points. */
-static size_t points_beyond(const hr2di_integrator *w, double least, double most) {
+size_t hr2di_gas_points_beyond(const hr2di_integrator *w, double least, double most) {
   enum { FIRST_POINTS = 10 };
   static const double span[] = {0.02, 0.15, 0.5, 1.2, 2};
   size_t by_span = 3;
@@ -129,7 +129,8 @@ void hr2di_gas_add(hr2di_integrator *w, const hr2di_gas_lines *l, double *block)
     const double span = span_from(w, depth, least), left = (1 - at) * whole;
     const double to = dark || left <= span ? 1 : at + span / whole;
     const double end = least + to * whole;
-    const size_t points = dark ? w->order / 2 + 1 : w->order + points_beyond(w, depth, end);
+    const size_t points =
+        dark ? w->order / 2 + 1 : w->order + hr2di_gas_points_beyond(w, depth, end);
     const piece p = {start, at, to, {depth, end}, points};
     add_piece(w, l, &p, dark, block);
     at = to;

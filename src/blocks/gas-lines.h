@@ -26,6 +26,10 @@ double hr2di_gas_depth(const hr2di_integrator *work, const hr2di_trapezoid *t, s
    HUGE_VAL if it should be divided. */
 double hr2di_gas_points(const hr2di_integrator *work, const hr2di_trapezoid *t);
 
+/* Points beyond the order that a rule over offsets takes on which depths go from one to
+   another. */
+size_t hr2di_gas_points_beyond(const hr2di_integrator *work, double least, double most);
+
 /* Adds what arrives to a block, and what is absorbed to work->lost. */
 void hr2di_gas_add(hr2di_integrator *work, const hr2di_gas_lines *lines, double *block);
 

@@ -93,12 +93,18 @@ static double area_of(const hr2di_vertex *low, const hr2di_vertex *high, const r
   return not_negative(0.5 * (z.x * x + z.y * y));
 }
 
-/* How far a vertex is in front of the lines of i and of j, but for |u| and |v|. */
-static void set_above(const hr2di_line_frame *f, const hr2di_vertex *z, double above[2]) {
+void hr2di_line_above(const hr2di_line_frame *f, const hr2di_vertex *z, double above[2]) {
   const hr2di_vector from_a = hr2di_vector_minus(&z->at, &f->a);
   const hr2di_vector from_c = hr2di_vector_minus(&z->at, &f->c);
-  above[0] = z->on & HR2DI_ON_I ? 0 : not_negative(hr2di_vector_cross(&f->u, &from_a));
-  above[1] = z->on & HR2DI_ON_J ? 0 : not_negative(hr2di_vector_cross(&f->v, &from_c));
+  above[0] = z->on & HR2DI_ON_I ? 0 : hr2di_vector_cross(&f->u, &from_a);
+  above[1] = z->on & HR2DI_ON_J ? 0 : hr2di_vector_cross(&f->v, &from_c);
+}
+
+/* The same of a vertex that bounds lines, which is behind neither. */
+static void set_above(const hr2di_line_frame *f, const hr2di_vertex *z, double above[2]) {
+  hr2di_line_above(f, z, above);
+  above[0] = not_negative(above[0]);
+  above[1] = not_negative(above[1]);
 }
 
 /* Makes the trapezoid between two rays; returns 0 if they do not differ, or not that way. */
@@ -115,6 +121,8 @@ static int make_trapezoid(const hr2di_line_frame *f, const hr2di_vertex *low,
   if (f->has_gas) {
     set_above(f, low, t->above[0]);
     set_above(f, high, t->above[1]);
+    t->bound[0] = low;
+    t->bound[1] = high;
   }
   return 1;
 }

@@ -60,8 +60,13 @@ typedef struct hr2di_trapezoid {
   double gap[2];       /* (high − low) × e */
   hr2di_meeting on[2]; /* on i, from low to high, and on j, from high to low */
   double area;         /* half the measure of the lines, rounded */
-  double above[2][2];  /* with gas: u × (z − a) and v × (z − c), of z = low and of high */
+  double above[2][2]; /* with gas: u × (z − a) and v × (z − c), of z = low and of high, */
+  const hr2di_vertex *bound[2]; /* which are these */
 } hr2di_trapezoid;
+
+/* Sets how far a vertex is in front of the lines of i and of j, but for |u| and |v|; negative
+   behind them. */
+void hr2di_line_above(const hr2di_line_frame *frame, const hr2di_vertex *z, double above[2]);
 
 /* The number of trapezoids of these chains is at most that of their vertices. */
 size_t hr2di_line_trapezoids(const hr2di_line_frame *frame, const hr2di_vertex *right,

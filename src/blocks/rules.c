@@ -23,7 +23,7 @@ static void set_apart(hr2di_integrator *w) {
 
 hr2d_status hr2di_integrator_points(hr2di_integrator *w, size_t points, int fewer) {
   hr2di_alloc_free(&w->alloc, w->phi);
-  const size_t most = points + (w->absorption > 0 ? HR2DI_GAS_POINTS : 0);
+  const size_t most = points + (w->has_gas ? HR2DI_GAS_POINTS : 0);
   w->points = points;
   w->phi = hr2di_alloc(&w->alloc, most * (most + 1) / 2, w->order * sizeof *w->phi);
   memset(w->tabled, 0, sizeof w->tabled);

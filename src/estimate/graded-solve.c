@@ -15,6 +15,7 @@
 #include "mesh/reuse-links.h"
 #include "mesh/row-partition.h"
 #include "refine/refine-how.h"
+#include "scene/regions.h"
 #include "scene/scene-impl.h"
 #include "solution/solution-impl.h"
 #include "solve/solve-how.h"
@@ -116,7 +117,8 @@ static hr2d_status find_roots(hr2d_linkset *links, const hr2di_graded *coarse,
                               const hr2di_resolution *fineness, const hr2d_target *target) {
   const hr2d_scene *scene = links->hierarchy->scene;
   hr2di_watch watch;
-  if (scene->patches < HR2DI_CHOICE_CLUSTERS_PATCHES) return HR2D_OK;
+  if (scene->patches < HR2DI_CHOICE_CLUSTERS_PATCHES || hr2di_scene_regions(scene))
+    return HR2D_OK;
   hr2di_scene_watch(scene, &watch, target->progress, target->progress_ctx, "refine");
   return coarse && !coarse->links->roots.clusters
              ? hr2di_roots_copy(&links->roots, &coarse->links->roots, scene->patches,
@@ -138,10 +140,8 @@ static hr2d_status link_elements(hr2di_graded *a, const hr2di_graded *coarse,
   options.progress = target->progress;
   options.progress_ctx = target->progress_ctx;
   options.share = target->share;
-  const hr2d_scene *scene = a->hierarchy->scene;
-  hr2di_gas_range *absorption = hr2di_scene_has_gas(scene) ? &scene->gas->scaled_range : NULL;
   hr2d_status status =
-      hr2d_linkset_create(a->hierarchy, hr2di_admissibility_oracle(), absorption,
+      hr2d_linkset_create(a->hierarchy, hr2di_admissibility_oracle(), a->hierarchy,
                           hr2di_admissibility_fixed_leaves(), NULL, &a->links);
   if (status) return status;
   status = find_roots(a->links, coarse, fineness, target);
@@ -187,7 +187,7 @@ static hr2d_status check_bytes(const hr2di_graded *a, const hr2di_resolution *fi
   const double held = (double)hr2di_graded_bytes(a);
   const unsigned order =
       target->no_error ? fineness->order : hr2di_resolution_finer(fineness).order;
-  const size_t lost = hr2di_scene_has_gas(a->hierarchy->scene) ? 2 * order * sizeof(double) : 0;
+  const size_t lost = hr2di_link_blocks_gas_bytes(a->hierarchy->scene, order);
   const double blocks = (double)hr2d_linkset_size(a->links) * (double)a->links->groups *
                         (double)(hr2di_graded_block_bytes(fineness, target->no_error) + lost);
   const double fields = field_bytes(a, fineness, target->no_error);

@@ -74,11 +74,15 @@ static int same_kind(thing one, thing other) {
 /* B, or that behind gas: E + T(B − E) with 0 ≤ T ≤ 1, which is the same for both as long as
    they are as far. */
 static double difference_of(const hr2di_light_source *of, thing one, thing other, size_t band) {
-  const double a = value_of(of, one, band), b = value_of(of, other, band),
-               kappa = hr2d_scene_absorption(of->scene, 0, band);
-  if (!(kappa > 0) || one.from_x == other.from_x) return fabs(a - b);
-  const double gas = of->solution->gas[2 * band];
-  return fmax(fabs(a - b), fmax(fabs(a - gas), fabs(b - gas)));
+  const double a = value_of(of, one, band), b = value_of(of, other, band);
+  double most = fabs(a - b);
+  if (one.from_x == other.from_x) return most;
+  for (size_t k = 0; k < of->scene->gases.count; k++) {
+    if (!(hr2d_scene_absorption(of->scene, k, band) > 0)) continue;
+    const double gas = *hr2di_solution_gas(of->solution, k, band);
+    most = fmax(most, fmax(fabs(a - gas), fabs(b - gas)));
+  }
+  return most;
 }
 
 static double jump_between(const search *s, thing one, thing other) {

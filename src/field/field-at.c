@@ -70,10 +70,11 @@ static hr2d_status find_gas_error(hr2di_field_call *f) {
   of->gas_error = hr2di_alloc_zero(&of->leaves.alloc, bands, sizeof *of->gas_error);
   if (!of->gas_error) return HR2D_ENOMEM;
   /* The first elements are the patches. */
-  for (size_t k = 0; k < hr2di_scene_cell(scene) * bands && hr2di_scene_gas_is_free(scene); k++)
+  for (size_t k = 0; k < hr2di_scene_cell(scene) * bands && hr2di_scene_has_free_gas(scene);
+       k++)
     of->gas_error[k % bands] = fmax(of->gas_error[k % bands], error[k]);
   for (size_t b = 0; b < bands; b++)
-    of->gas_error[b] += GAS_ROUNDING * fabs(of->solution->gas[2 * b]);
+    of->gas_error[b] += GAS_ROUNDING * hr2di_solution_hottest(of->solution, b);
   return HR2D_OK;
 }
 

@@ -68,7 +68,7 @@ static hr2d_status add_leaves(hr2di_leaves *l, const hr2d_solution *s, size_t pa
 static hr2d_status find_scale(const hr2d_solution *s, double *scale, hr2di_watch *watch) {
   const size_t each = s->order * s->bands;
   hr2d_status status = HR2D_OK;
-  for (size_t b = 0; b < s->bands; b++) scale[b] = s->gas ? fabs(s->gas[2 * b]) : 0;
+  for (size_t b = 0; b < s->bands; b++) scale[b] = hr2di_solution_hottest(s, b);
   for (size_t e = 0; e < s->elements && !status; e++) {
     for (size_t k = 0; k < each; k++)
       scale[k % s->bands] = fmax(scale[k % s->bands], fabs(s->value[e * each + k]));

@@ -99,7 +99,7 @@ void hr2di_strip_add_near(hr2di_light_sum *sum, hr2di_strip *s, hr2di_span part,
 
 const hr2di_rule *hr2di_strip_far_rule(const hr2di_light_source *of, uint32_t element,
                                        const hr2di_strip *s, hr2di_span part) {
-  if (!of->far || !(part.to > part.from)) return NULL;
+  if (!of->far || !(part.to > part.from) || hr2di_scene_regions(of->scene)) return NULL;
   const hr2d_point from = hr2di_block_along(s->from, s->along, part.from),
                    to = hr2di_block_along(s->from, s->along, part.to),
                    all = hr2di_point_minus(to, from);

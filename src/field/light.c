@@ -233,8 +233,10 @@ static void add_pieces(hr2di_light_sum *sum, const hr2di_polygon_arc *s) {
 }
 
 double hr2di_light_sky(const hr2di_light_source *of, size_t band) {
-  return hr2d_scene_absorption(of->scene, 0, band) > 0 ? of->solution->gas[2 * band]
-                                                       : hr2d_scene_background(of->scene, band);
+  const size_t gas = hr2di_scene_gas_around(of->scene);
+  return gas != HR2DI_NO_GAS && hr2d_scene_absorption(of->scene, gas, band) > 0
+             ? *hr2di_solution_gas(of->solution, gas, band)
+             : hr2d_scene_background(of->scene, band);
 }
 
 void hr2di_light_add_sky(hr2di_light_sum *sum, hr2d_point right, hr2d_point left, double angle,

@@ -56,6 +56,9 @@ hr2d_status hr2di_geojson_feature(hr2di_geojson *reader, const json_t *feature, 
   if (named && !name)
     hr2di_notes_add(&reader->notes, HR2D_WARNING_IGNORED, "name", reader->label,
                     "a name is a text or a number, or an object or a short array with one");
+  if (!status) status = hr2di_geojson_region(reader, properties);
+  if (!status && reader->is_gas)
+    return hr2di_geojson_geometry(reader, hr2di_geojson_member(feature, "geometry"));
   if (!status) status = hr2di_geojson_surface(reader, properties);
   if (!status) status = hr2di_geojson_sides(reader, properties);
   if (!status) status = hr2di_geojson_back(reader, properties);

@@ -229,6 +229,20 @@ static hr2d_status add_segment(hr2di_geojson *reader, hr2d_point a, hr2d_point b
                             reader->message->text);
 }
 
+/* The border of a gas is one ring; the last of its points is the first. */
+static hr2d_status add_region(hr2di_geojson *reader, const path *p, size_t points) {
+  if (p->role == LINE)
+    return hr2di_message_fail(reader->message, HR2D_ESYNTAX,
+                              "%s: medium: a gas fills a Polygon, and this is a line",
+                              p->place);
+  if (p->role == HOLE)
+    return hr2di_message_fail(reader->message, HR2D_ESYNTAX,
+                              "%s: medium: the border of a gas has no holes: leave this one "
+                              "out, and add what fills it as a gas after this one",
+                              p->place);
+  return hr2di_geojson_add_region(reader, points - 1);
+}
+
 static hr2d_status add_path(hr2di_geojson *reader, const path *p) {
   size_t n = 0;
   int reverse = 0;
@@ -243,6 +257,7 @@ static hr2d_status add_path(hr2di_geojson *reader, const path *p) {
     const int search_in = (p->role == OUTER) != reader->faces_out;
     reverse = (area > 0) != search_in;
   }
+  if (reader->is_gas) return add_region(reader, p, n);
   if (reader->is_mirror)
     return hr2di_geojson_add_mirror(reader, reader->point[0], reader->point[1]);
   const size_t first = reader->scene->patches;

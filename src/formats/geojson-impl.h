@@ -45,8 +45,10 @@ typedef struct hr2di_geojson {
   int has_back;                 /* the other side has properties of its own: */
   hr2d_patch back;
   hr2d_thermal back_thermal;
-  size_t first;  /* the patch of its first segment, behind which that of the back comes */
-  int is_mirror; /* it is no patch */
+  size_t first;   /* the patch of its first segment, behind which that of the back comes */
+  int is_mirror;  /* it is no patch, */
+  hr2d_gas fills; /* nor is it if it is a gas: its polygon is a border */
+  int is_gas;
   int faces_out; /* fronts of its polygons look out */
   size_t segments, added;
 
@@ -57,8 +59,8 @@ typedef struct hr2di_geojson {
   /* What the scene gets once nothing else can fail; NULL without a sun. */
   hr2d_sun *sun;
   size_t suns;
-  hr2di_sky sky;  /* the same; without pieces there is none */
-  hr2di_gas *gas; /* the same; NULL: the file has no medium */
+  hr2di_sky sky;     /* the same; without pieces there is none */
+  hr2di_gases gases; /* the same */
   hr2d_segment mirror[HR2DI_MIRRORS];
   size_t mirrors;
   hr2d_point period;
@@ -112,8 +114,15 @@ hr2d_status hr2di_geojson_sun(hr2di_geojson *reader, const json_t *members);
 int hr2di_geojson_is_continuous_sky(const json_t *json);
 hr2d_status hr2di_geojson_continuous_sky(hr2di_geojson *reader, const json_t *json);
 
-/* Reads the gas from the member "hr2d", and gives it to the scene, which cannot fail. */
+/* Reads the gas from the member "hr2d", or from the properties of the current feature into
+   reader->fills, and gives those that were read to the scene, which cannot fail. */
 hr2d_status hr2di_geojson_medium(hr2di_geojson *reader, const json_t *members);
+hr2d_status hr2di_geojson_region(hr2di_geojson *reader, const json_t *properties);
+
+/* Keeps the gas of the current feature, whose border is reader->point. */
+hr2d_status hr2di_geojson_add_region(hr2di_geojson *reader, size_t points);
+/* What may fail of it, and goes before. */
+hr2d_status hr2di_geojson_prepare_medium(hr2di_geojson *reader);
 void hr2di_geojson_give_medium(hr2di_geojson *reader);
 
 /* Reads the period from the member "hr2d". */

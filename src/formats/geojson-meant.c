@@ -100,7 +100,7 @@ static const meant properties_meant[] = {
 
 /* Where the members of the format belong. */
 static const char *const of_properties[] = {
-    "back", "emission",    "emissivity", "faces", "flux",        "heat",
+    "back", "emission",    "emissivity", "faces", "flux",        "heat",         "medium",
     "name", "reflectance", "shield",     "sides", "temperature", "transmittance"};
 static const char *const of_scene[] = {
     "background", "background_temperature", "medium", "period", "sky", "sun", "wavelengths",

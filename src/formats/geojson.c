@@ -69,10 +69,10 @@ static hr2d_status read_features(hr2di_geojson *reader, json_t *features) {
 /* The background is set last, so that no failure has to take it back, and then what cannot
    fail. A file without one leaves that of the scene as it is. */
 static hr2d_status give_scene_effects(hr2di_geojson *reader, size_t background_bands) {
-  const hr2d_status status =
-      background_bands
-          ? hr2d_scene_set_background(reader->scene, reader->background.value, background_bands)
-          : HR2D_OK;
+  hr2d_status status = hr2di_geojson_prepare_medium(reader);
+  if (!status && background_bands)
+    status =
+        hr2d_scene_set_background(reader->scene, reader->background.value, background_bands);
   if (status) return status;
   if (reader->sun) {
     hr2di_scene_take_sun(reader->scene, reader->sun, reader->suns);
@@ -116,7 +116,7 @@ hr2d_status hr2di_geojson_read(hr2d_scene *scene, const char *text, size_t size,
   json_decref(root);
   hr2di_alloc_free(reader.alloc, reader.background.value);
   hr2di_alloc_free(reader.alloc, reader.sun);
-  hr2di_alloc_free(reader.alloc, reader.gas);
+  hr2di_gases_clear(&reader.gases, reader.alloc);
   hr2di_sky_clear(&reader.sky, reader.alloc);
   hr2di_alloc_free(reader.alloc, reader.emission.value);
   hr2di_alloc_free(reader.alloc, reader.reflectance.value);

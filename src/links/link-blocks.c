@@ -9,6 +9,7 @@
 #include "base/choices.h"
 #include "base/team.h"
 #include "blocks/block.h"
+#include "blocks/gas-cells.h"
 #include "links/linkset-impl.h"
 #include "scene/scene-impl.h"
 
@@ -89,8 +90,26 @@ static size_t rest_bytes(const hr2di_link_blocks *b) {
   return b->order * b->order * hr2di_number_size(b->single) - leading_bytes(b);
 }
 
+static size_t count_lost(size_t gases, size_t order) {
+  return 2 * order + (gases ? hr2di_gas_cells_shares(gases, order) : 0);
+}
+
+/* The gases of a scene with borders, else 0. */
+static size_t gases_of(const hr2d_scene *scene) {
+  return hr2di_scene_regions(scene) ? scene->gases.count : 0;
+}
+
+size_t hr2di_link_blocks_lost(const hr2di_link_blocks *b) {
+  return count_lost(b->gases, b->lost_order);
+}
+
+size_t hr2di_link_blocks_gas_bytes(const hr2d_scene *scene, size_t order) {
+  if (!hr2di_scene_has_gas(scene)) return 0;
+  return count_lost(gases_of(scene), order) * sizeof(double);
+}
+
 static size_t lost_bytes(const hr2di_link_blocks *b) {
-  return b->has_gas ? 2 * b->lost_order * sizeof *b->lost : 0;
+  return b->has_gas ? hr2di_link_blocks_lost(b) * sizeof *b->lost : 0;
 }
 
 /* Writes block k to its two parts. */
@@ -124,6 +143,9 @@ static void put_lost(hr2di_integrator *work, double area, double weight, double 
     check_lost(&work->basis, area, work->lost[side]);
     put_doubles(lost + side * work->order, work->lost[side], work->order, weight);
   }
+  if (work->cells)
+    put_doubles(lost + 2 * work->order, work->cells->share,
+                hr2di_gas_cells_shares(work->cells->gases, work->order), weight);
 }
 
 static hr2d_status make_one(const maker *m, hr2di_integrator *work, uint64_t k) {
@@ -134,12 +156,13 @@ static hr2d_status make_one(const maker *m, hr2di_integrator *work, uint64_t k) 
   const double area = link->exchange_area / weight;
   const hr2d_status status = hr2di_block(work, link->pair, area, block, &distant);
   if (status) return status;
-  const int has_gas = work->absorption > 0;
+  const int has_gas = work->has_gas;
   if (is_tiny(m->links->hierarchy, link->pair) && !has_gas) block[0] = area;
   check_bound(&work->basis, area, has_gas, block);
   part_block(block, weight, m->blocks, k);
   m->blocks->distant[k] = (unsigned char)distant;
-  if (has_gas) put_lost(work, area, weight, m->blocks->lost + k * 2 * m->blocks->lost_order);
+  if (has_gas)
+    put_lost(work, area, weight, m->blocks->lost + k * hr2di_link_blocks_lost(m->blocks));
   return HR2D_OK;
 }
 
@@ -276,6 +299,7 @@ hr2d_status hr2di_link_blocks_init(hr2d_linkset *links, const hr2di_blocks_wante
   made.order = wanted->order;
   if (made.links == 0) made.lost_order = wanted->order;
   made.has_gas = hr2di_scene_has_gas(links->hierarchy->scene);
+  made.gases = gases_of(links->hierarchy->scene);
   made.single = wanted->single;
   made.kernels = 0;
   *known = (hr2di_link_blocks){0};

@@ -24,9 +24,17 @@ typedef struct hr2di_link_blocks {
   unsigned char *distant; /* per link: integrated by one rule, as accurate as the order needs */
   int has_gas;
   size_t lost_order; /* of these: */
-  double *lost;      /* with gas, links × 2 × lost_order: hr2di_integrator::lost; else NULL */
-  uint64_t kernels;  /* evaluations of G it took */
+  size_t gases;      /* with borders between them, else 0 */
+  double *lost; /* with gas, per link 2 × lost_order numbers, hr2di_integrator::lost, and behind
+                   them what each gas takes, hr2di_gas_cells::share; else NULL */
+  uint64_t kernels; /* evaluations of G it took */
 } hr2di_link_blocks;
+
+/* The numbers of `lost` per link. */
+size_t hr2di_link_blocks_lost(const hr2di_link_blocks *b);
+
+/* The bytes of what gas takes, per link of a scene. */
+size_t hr2di_link_blocks_gas_bytes(const hr2d_scene *scene, size_t order);
 
 /* The bytes of all blocks. */
 uint64_t hr2di_link_blocks_bytes(const hr2di_link_blocks *b);

@@ -7,8 +7,9 @@
 #include "base/bickley.h"
 #include "geometry/bernstein-ellipse.h"
 #include "geometry/predicates.h"
+#include "hierarchy/hierarchy-impl.h"
 #include "oracle/built-in.h"
-#include "scene/gas.h"
+#include "scene/regions.h"
 
 /* On an element with children radiosity is not smooth: of the product of its rough part and the
    kernel's, which a link drops, only the kernel's is small, and so it must be smaller: at 6 the
@@ -23,6 +24,13 @@
 static double depth_between(const hr2d_element *i, const hr2d_element *j, double absorption) {
   const double centres = hypot(i->centre.x - j->centre.x, i->centre.y - j->centre.y);
   return absorption * (centres - 0.5 * (i->length + j->length));
+}
+
+/* Whether a border of gas is between elements, behind which T has kinks. */
+static int is_parted(const hr2d_element *i, const hr2d_element *j, const hr2d_scene *scene) {
+  const hr2di_regions *r = hr2di_scene_regions(scene);
+  const hr2d_segment s = {i->a, i->b}, t = {j->a, j->b};
+  return r && (i->child || j->child) && hr2di_regions_part(r, s, t);
 }
 
 /* Whether gas lets elements be linked. */
@@ -45,12 +53,16 @@ static int is_separate(const hr2d_element *i, const hr2d_element *j, int partial
 }
 
 static hr2d_status estimate(void *ctx, const hr2d_batch *batch, double *error) {
-  const hr2di_gas_range *absorption = ctx;
+  const hr2d_scene *scene = ctx ? ((const hr2d_hierarchy *)ctx)->scene : NULL;
+  const int has_gas = scene && hr2di_scene_has_gas(scene);
+  const hr2di_gas_range none = {0, 0},
+                        absorption = has_gas ? hr2di_scene_scaled_range(scene) : none;
   for (size_t k = 0; k < batch->count; k++) {
     const hr2d_pair pair = batch->pairs[k];
     const hr2d_element *i = &batch->elements[pair.first], *j = &batch->elements[pair.second];
     const int partial = batch->partial && batch->partial[k];
-    error[k] = !is_separate(i, j, partial) || (absorption && !is_clear(i, j, *absorption));
+    error[k] = !is_separate(i, j, partial) ||
+               (has_gas && (!is_clear(i, j, absorption) || is_parted(i, j, scene)));
   }
   return HR2D_OK;
 }

@@ -8,8 +8,8 @@
 #include <hr2d/policy.h>
 
 /* Its estimate is 0 for pairs that are distant both ways, face each other fully and have no
-   walls in the way, and that gas lets be linked; else 1.  Its context is NULL, or the range of
-   κ of the gas per unit of the scene, an hr2di_gas_range. */
+   walls in the way, and that gas lets be linked; else 1.  Its context is the hierarchy, or
+   NULL: there is no gas. */
 const hr2d_oracle *hr2di_admissibility_oracle(void);
 
 /* Never divides a leaf: pairs of leaves are linked. */

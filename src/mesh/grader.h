@@ -70,7 +70,21 @@ hr2d_status hr2di_grading_list_vertices(hr2di_grader *g);
 /* The largest ρ of a patch in any band, or ρ + τ. */
 double hr2di_grading_reflectance(const hr2d_scene *scene, uint32_t patch);
 
-/* Adds the vertices that are near to a patch to its marks and its near points. */
+/* How elements are graded towards a corner in gas, with an angle of this cosine, between
+   patches of a mean ρ; `depth` is that of the patch. */
+hr2di_grading_mark hr2di_grading_in_gas(const hr2di_grader *g, double cosine, double rho,
+                                        double depth);
+
+/* Adds a mark of the patch under way, and a point that is near to it, unless it is not. */
+hr2d_status hr2di_grading_add_mark(hr2di_grader *g, double at, hr2d_point point,
+                                   hr2di_grading_mark mark);
+hr2d_status hr2di_grading_add_near(hr2di_grader *g, hr2d_segment patch, hr2d_point v);
+
+/* gas-marks.c: adds what borders of gases make for a patch. */
+hr2d_status hr2di_grading_mark_gas(hr2di_grader *g, uint32_t patch);
+
+/* grading-marks.c: adds the vertices that are near to a patch to its marks and its near points.
+ */
 hr2d_status hr2di_grading_look_around(hr2di_grader *g, uint32_t patch);
 
 /* Turns marks from number `first` on round, which are of the other side of a pane. */

@@ -122,8 +122,8 @@ static unsigned levels_to(const hr2d_scene *scene, uint32_t patch, uint32_t othe
 /* Through gas H of a patch that stands at a corner has x ln x times the other's B − E_g and
    twice κ/π, also if the other one reflects nothing; it is as strong as its elements are deep.
  */
-static hr2di_grading_mark grade_corner_in_gas(const hr2di_grader *g, double cosine, double rho,
-                                              double depth) {
+hr2di_grading_mark hr2di_grading_in_gas(const hr2di_grader *g, double cosine, double rho,
+                                        double depth) {
   enum { SLOPE = 3 }; /* 1 + 2γ of γ = 1 */
   const double p = g->grading->order, strength = rho * (1 + cosine) * fmin(depth, 1);
   const double digits = log2(strength / SMALL / g->target) / SLOPE;
@@ -162,7 +162,7 @@ static hr2di_grading_mark grade_at(hr2di_grader *g, uint32_t patch,
   const double cosine = v->last ? along : -along;
   if (seen && rho > 0) m = grade_corner(g, cosine, up, rho);
   if (seen && own > 0 && depth > 0) {
-    const hr2di_grading_mark in_gas = grade_corner_in_gas(g, cosine, own, depth);
+    const hr2di_grading_mark in_gas = hr2di_grading_in_gas(g, cosine, own, depth);
     deepen(&m, &in_gas);
   }
   unsigned levels = m.depth > 0 ? levels_to(scene, patch, v->patch) : 0;
@@ -172,8 +172,8 @@ static hr2di_grading_mark grade_at(hr2di_grader *g, uint32_t patch,
   return m;
 }
 
-static hr2d_status add_mark(hr2di_grader *g, double at, hr2d_point point,
-                            hr2di_grading_mark mark) {
+hr2d_status hr2di_grading_add_mark(hr2di_grader *g, double at, hr2d_point point,
+                                   hr2di_grading_mark mark) {
   if (hr2di_alloc_reserve(&g->h->alloc, &g->mark, &g->mark_capacity, g->marks + 1,
                           sizeof *g->mark))
     return HR2D_ENOMEM;
@@ -190,7 +190,7 @@ static int rises(const hr2d_scene *scene, uint32_t patch, const hr2di_grading_ve
 }
 
 /* Adds a vertex to the marks if it is on the patch, to the near points if it is in front. */
-static hr2d_status add_near(hr2di_grader *g, hr2d_segment patch, hr2d_point v) {
+hr2d_status hr2di_grading_add_near(hr2di_grader *g, hr2d_segment patch, hr2d_point v) {
   if (hr2di_ellipse(patch, v) >= HR2DI_GRADING_FAR) return HR2D_OK;
   if (hr2di_alloc_reserve(&g->h->alloc, &g->near.point, &g->near.capacity, g->near.count + 1,
                           sizeof *g->near.point))
@@ -220,7 +220,8 @@ static hr2d_status place_touching(hr2di_grader *g, uint32_t patch,
   const hr2di_patch *p = &g->h->scene->patch[patch];
   if (fabs(above) > HR2DI_TOUCH / p->length || at < ON_LINE || at > 1 - ON_LINE) return HR2D_OK;
   if (g->grading->order >= HIGH || !rises(g->h->scene, patch, v)) return HR2D_OK;
-  return add_mark(g, at, hr2di_point_at(p->scaled, at), (hr2di_grading_mark){.depth = 0});
+  return hr2di_grading_add_mark(g, at, hr2di_point_at(p->scaled, at),
+                                (hr2di_grading_mark){.depth = 0});
 }
 
 /* Sorts a vertex into the marks if it is on the patch, into the near ones if it is in front, or
@@ -236,20 +237,20 @@ static hr2d_status place(hr2di_grader *g, uint32_t patch, uint32_t number) {
   const double ux = s.b.x - s.a.x, uy = s.b.y - s.a.y;
   const double at = ((v->at.x - s.a.x) * ux + (v->at.y - s.a.y) * uy) / square;
   const double min = fmin(ON_LINE, HR2DI_TOUCH / p->length);
-  if (v->inside) return above > min ? add_near(g, s, v->at) : HR2D_OK;
+  if (v->inside) return above > min ? hr2di_grading_add_near(g, s, v->at) : HR2D_OK;
   const int sees =
       above > min && (!g->seen || hr2di_visible_vertices_has(g->seen, v->patch, v->last));
-  if (sees) return add_near(g, s, v->at);
+  if (sees) return hr2di_grading_add_near(g, s, v->at);
   if (fabs(above) > min) return place_touching(g, patch, v, above, at);
   if (at < -ON_LINE || at > 1 + ON_LINE)
-    return rises(g->h->scene, patch, v) ? add_near(g, s, v->at) : HR2D_OK;
+    return rises(g->h->scene, patch, v) ? hr2di_grading_add_near(g, s, v->at) : HR2D_OK;
   const hr2di_grading_mark mark = grade_at(g, patch, v, at);
-  if (at < ON_LINE) return add_mark(g, 0, s.a, mark);
-  if (at > 1 - ON_LINE) return add_mark(g, 1, s.b, mark);
+  if (at < ON_LINE) return hr2di_grading_add_mark(g, 0, s.a, mark);
+  if (at > 1 - ON_LINE) return hr2di_grading_add_mark(g, 1, s.b, mark);
   const hr2d_status status = rises(g->h->scene, patch, v)
                                  ? add_under(g, 2 * v->patch + (uint32_t)v->last, patch)
                                  : HR2D_OK;
-  return status ? status : add_mark(g, at, v->at, mark);
+  return status ? status : hr2di_grading_add_mark(g, at, v->at, mark);
 }
 
 /* Places the vertices that may be near a patch: those in a window of x, and of y. */
@@ -280,7 +281,8 @@ static hr2d_status add_foot(hr2di_grader *g, uint32_t patch, int last) {
   const hr2d_segment s = g->h->scene->patch[patch].scaled;
   const hr2di_grading_vertex foot = {last ? s.b : s.a, patch, last, 0};
   const uint32_t under = g->under[2 * patch + (uint32_t)last];
-  return under ? add_mark(g, last, foot.at, grade_at(g, under - 1, &foot, 0.5)) : HR2D_OK;
+  return under ? hr2di_grading_add_mark(g, last, foot.at, grade_at(g, under - 1, &foot, 0.5))
+               : HR2D_OK;
 }
 
 unsigned hr2di_grading_generations(double error) {
@@ -301,7 +303,8 @@ static hr2d_status add_events(hr2di_grader *g, uint32_t patch) {
   hr2d_status status = HR2D_OK;
   for (; events && low < events->count && events->event[low].patch == patch && !status; low++) {
     const double at = events->event[low].at;
-    status = add_mark(g, at, hr2di_point_at(s, at), (hr2di_grading_mark){.depth = 0});
+    status =
+        hr2di_grading_add_mark(g, at, hr2di_point_at(s, at), (hr2di_grading_mark){.depth = 0});
   }
   return status;
 }

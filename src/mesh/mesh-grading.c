@@ -157,6 +157,7 @@ static void aim(hr2di_grader *g, uint32_t patch) {
 static hr2d_status look(hr2di_grader *g, uint32_t patch) {
   hr2d_status status = g->seen ? hr2di_visible_vertices_look(g->seen, patch) : HR2D_OK;
   if (!status) status = hr2di_grading_look_around(g, patch);
+  if (!status) status = hr2di_grading_mark_gas(g, patch);
   return status ? status
                 : hr2di_images_add(g->h->scene, patch, HR2DI_GRADING_FAR, g->seen, &g->near,
                                    g->grading->watch);

@@ -10,33 +10,44 @@ static size_t find(const hr2d_scene *scene, size_t *first, size_t *group, hr2di_
                    hr2d_status *status) {
   size_t count = 0;
   for (size_t b = 0; b < scene->bands && !*status; b++) {
-    const double absorption = hr2d_scene_absorption(scene, 0, b);
     size_t g = 0;
-    while (g < count && hr2d_scene_absorption(scene, 0, first[g]) != absorption) g++;
+    while (g < count && !hr2di_scene_absorbs_alike(scene, first[g], b)) g++;
     if (g == HR2DI_BAND_GROUPS) return g + 1;
     if (g == count) first[count++] = b;
     group[b] = g;
-    *status = hr2di_watch_work(watch, 1 + count / 8);
+    *status = hr2di_watch_work(watch, 1 + count * scene->gases.count / 8);
   }
   return count;
 }
 
-/* The gas of one group: grey, with E_g of each band. */
-static hr2d_status give_gas(hr2d_scene *made, const hr2d_scene *scene) {
-  const double absorption = hr2d_scene_absorption(scene, 0, made->band_of[0]);
-  double *emission = hr2di_alloc(&scene->alloc, made->bands, sizeof *emission);
-  made->gas = NULL;
-  if (!emission) return HR2D_ENOMEM;
+/* A gas of one group: grey, with E_g of each band.  It is where that of the scene is. */
+static hr2d_status give_gas(hr2d_scene *made, const hr2d_scene *scene, size_t k,
+                            double *emission) {
+  hr2di_gas *grey;
+  const double absorption = hr2d_scene_absorption(scene, k, made->band_of[0]);
   for (size_t b = 0; b < made->bands; b++)
-    emission[b] = hr2di_scene_gas_emission(scene, made->band_of[b]);
+    emission[b] = hr2di_scene_gas_emission(scene, k, made->band_of[b]);
   hr2d_gas gas = HR2D_GAS_INIT;
   gas.absorption = &absorption;
   gas.absorption_bands = 1;
   gas.emission = emission;
   gas.emission_bands = made->bands;
   gas.section = hr2di_scene_section(scene);
+  hr2d_status status = hr2di_scene_make_gas(made, &gas, &grey);
+  if (status) return status;
+  grey->border_points = scene->gases.gas[k]->border_points; /* whose points nobody asks for */
+  status = hr2di_gases_take(&made->gases, made, grey);
+  if (status) hr2di_alloc_free(&scene->alloc, grey);
+  return status;
+}
+
+static hr2d_status give_gases(hr2d_scene *made, const hr2d_scene *scene) {
   hr2d_status status = HR2D_OK;
-  if (absorption > 0) status = hr2di_scene_make_gas(made, &gas, &made->gas);
+  double *emission = hr2di_alloc(&scene->alloc, made->bands, sizeof *emission);
+  made->gases = (hr2di_gases){0};
+  if (!emission) return HR2D_ENOMEM;
+  for (size_t k = 0; k < scene->gases.count && !status; k++)
+    status = give_gas(made, scene, k, emission);
   if (!status) status = hr2di_scene_check_gas(made, NULL);
   hr2di_alloc_free(&scene->alloc, emission);
   return status;
@@ -49,7 +60,7 @@ static hr2d_status make(const hr2d_scene *scene, const size_t *group, size_t g, 
   for (size_t b = 0; b < scene->bands; b++)
     if (group[b] == g) room[bands++] = b;
   const hr2d_status status = hr2di_relit_create_bands(scene, room, bands, made);
-  return status ? status : give_gas(*made, scene);
+  return status ? status : give_gases(*made, scene);
 }
 
 static hr2d_status make_all(hr2d_scene *scene, size_t groups, const size_t *group, size_t *room,
@@ -67,8 +78,10 @@ static hr2d_status make_all(hr2d_scene *scene, size_t groups, const size_t *grou
 
 hr2d_status hr2di_band_groups_make(hr2d_scene *scene, hr2di_watch *watch) {
   size_t first[HR2DI_BAND_GROUPS];
-  const hr2di_gas_range range = hr2di_scene_scaled_range(scene);
-  if (range.least == range.most) return HR2D_OK;
+  int alike = 1;
+  for (size_t b = 1; b < scene->bands && alike; b++)
+    alike = hr2di_scene_absorbs_alike(scene, 0, b);
+  if (alike) return HR2D_OK;
   size_t *group = hr2di_alloc(&scene->alloc, scene->bands, 2 * sizeof *group);
   hr2d_status status = group ? HR2D_OK : HR2D_ENOMEM;
   const size_t groups = group ? find(scene, first, group, watch, &status) : 0;
@@ -85,7 +98,7 @@ hr2d_status hr2di_band_groups_make(hr2d_scene *scene, hr2di_watch *watch) {
 
 void hr2di_band_groups_clear(hr2d_scene *scene) {
   for (size_t g = 0; g < scene->groups; g++) {
-    if (scene->group[g]) hr2di_alloc_free(&scene->alloc, scene->group[g]->gas);
+    if (scene->group[g]) hr2di_gases_clear(&scene->group[g]->gases, &scene->alloc);
     hr2di_relit_destroy(scene->group[g]);
   }
   hr2di_alloc_free(&scene->alloc, scene->group);

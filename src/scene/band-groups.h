@@ -24,15 +24,18 @@ static inline size_t hr2di_band_groups(const hr2d_scene *scene) {
   return scene->groups ? scene->groups : 1;
 }
 
-/* The bands of a group, and their κ per unit of the scaled coordinates. */
+/* The bands of a group, and a scene in whose bands κ of a gas is the same. */
 static inline size_t hr2di_band_group_size(const hr2d_scene *scene, size_t group) {
   return scene->groups ? scene->group[group]->bands : scene->bands;
 }
 static inline size_t hr2di_band_group_at(const hr2d_scene *scene, size_t group, size_t k) {
   return scene->groups ? scene->group[group]->band_of[k] : k;
 }
-static inline double hr2di_band_group_absorption(const hr2d_scene *scene, size_t group) {
-  return hr2di_scene_scaled_range(scene->groups ? scene->group[group] : scene).most;
+static inline const hr2d_scene *hr2di_band_group_scene(const hr2d_scene *scene, size_t group) {
+  return scene->groups ? scene->group[group] : scene;
+}
+static inline hr2di_gas_range hr2di_band_group_range(const hr2d_scene *scene, size_t group) {
+  return hr2di_scene_scaled_range(hr2di_band_group_scene(scene, group));
 }
 
 #endif

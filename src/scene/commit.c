@@ -2,6 +2,7 @@
 /* Commit: checks and analyses a scene once; from then on the scene is only read. */
 #include "base/alloc.h"
 #include "scene/band-groups.h"
+#include "scene/regions.h"
 #include "scene/scene-impl.h"
 
 /* Light from outside may have one value for all bands, too. */
@@ -92,6 +93,12 @@ static hr2d_status make_groups(hr2d_scene *scene, hr2di_watch *watch) {
   return hr2di_scene_fail(scene, status, watch, "bands through gas");
 }
 
+static hr2d_status make_regions(hr2d_scene *scene, hr2di_watch *watch) {
+  const hr2d_status status = hr2di_regions_make(scene, watch);
+  if (!status || status == HR2D_EUNSUPPORTED) return status;
+  return hr2di_scene_fail(scene, status, watch, "the borders of gases");
+}
+
 /* With K = `copies` in a period.  Returns HR2D_OK, or a status with nothing made. */
 static hr2d_status commit(hr2d_scene *scene, unsigned copies, hr2di_watch *watch) {
   hr2d_status (*const part[])(hr2d_scene *, hr2di_watch *) = {hr2di_scene_check_bands,
@@ -99,6 +106,7 @@ static hr2d_status commit(hr2d_scene *scene, unsigned copies, hr2di_watch *watch
                                                               hr2di_scene_check_thermal,
                                                               hr2di_scene_scale,
                                                               hr2di_scene_check_gas,
+                                                              make_regions,
                                                               hr2di_scene_check_overlaps,
                                                               hr2di_scene_match_panes,
                                                               hr2di_scene_make_walls,

@@ -114,7 +114,7 @@ static void analyse_medium(hr2d_scene *scene) {
     set(scene, HR2D_EFFECT_MEDIUM, 0, "no gas absorbs");
     return;
   }
-  const hr2di_gas_range range = scene->gas->given_range;
+  const hr2di_gas_range range = hr2di_scene_given_range(scene);
   if (range.least < range.most)
     set(scene, HR2D_EFFECT_MEDIUM, 1, "the gas absorbs %g to %g per length", range.least,
         range.most);

@@ -47,7 +47,7 @@ static int emits(const hr2d_scene *scene, size_t patch) {
 static int all_lit(const hr2d_scene *scene) {
   if (scene->effect[HR2D_EFFECT_EMISSION].forced ||
       scene->effect[HR2D_EFFECT_BACKGROUND].called_for || hr2di_scene_gas_emits(scene) ||
-      hr2di_scene_gas_is_free(scene))
+      hr2di_scene_has_free_gas(scene))
     return 1;
   size_t k = 0;
   while (k < scene->patches && emits(scene, k)) k++;

@@ -67,7 +67,8 @@ struct hr2d_scene {
   size_t sun_bands;
   hr2di_spectrum spectrum;
   hr2di_symmetry symmetry;
-  hr2di_gas *gas; /* NULL for none */
+  hr2di_gases gases;
+  struct hr2di_regions *regions; /* made by commit if a gas has a border; else NULL */
   hr2di_notes notes;
   int exponent;      /* the unit is 2^exponent */
   hr2di_walls walls; /* the occluders; made by commit, as all that follows */

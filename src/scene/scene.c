@@ -10,6 +10,7 @@
 #include "base/alloc.h"
 #include "scene/band-groups.h"
 #include "scene/patch-light.h"
+#include "scene/regions.h"
 #include "scene/scene-impl.h"
 
 hr2d_status hr2d_scene_create(const hr2d_allocator *allocator, hr2d_scene **scene) {
@@ -44,6 +45,7 @@ void hr2di_scene_clear_commit(hr2d_scene *scene) {
   hr2di_scene_clear_plane(scene);
   hr2di_sunlight_clear(&scene->sunlight, &scene->alloc);
   hr2di_band_groups_clear(scene);
+  hr2di_regions_clear(scene);
   hr2di_alloc_free(&scene->alloc, scene->dark);
   scene->dark = NULL;
   hr2di_alloc_free(&scene->alloc, scene->other_side);
@@ -65,7 +67,7 @@ void hr2d_scene_destroy(hr2d_scene *scene) {
   hr2di_sky_clear(&scene->sky, &scene->alloc);
   hr2di_alloc_free(&scene->alloc, scene->spectrum.wavelength);
   hr2di_alloc_free(&scene->alloc, scene->spectrum.weight);
-  hr2di_alloc_free(&scene->alloc, scene->gas);
+  hr2di_gases_clear(&scene->gases, &scene->alloc);
   hr2di_scene_clear_commit(scene);
   const hr2d_allocator alloc = scene->alloc;
   hr2di_alloc_free(&alloc, scene);

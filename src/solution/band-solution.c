@@ -2,6 +2,7 @@
 #include "solution/band-solution.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/alloc.h"
 
@@ -37,7 +38,8 @@ static hr2d_solution *reserve(const hr2d_linkset *links, const hr2d_solution *li
   made->value = hr2di_alloc(alloc, items, bands * sizeof *made->value);
   made->irradiance = hr2di_alloc(alloc, items, bands * sizeof *made->irradiance);
   made->power = hr2di_alloc(alloc, bands, sizeof *made->power);
-  if (has_gas) made->gas = hr2di_alloc_zero(alloc, bands, 2 * sizeof *made->gas);
+  const size_t gases = links->hierarchy->scene->gases.count;
+  if (has_gas) made->gas = hr2di_alloc_zero(alloc, gases * bands, 2 * sizeof *made->gas);
   if (made->value && made->irradiance && made->power && (!has_gas || made->gas)) return made;
   hr2d_solution_destroy(made);
   return NULL;
@@ -56,7 +58,8 @@ hr2d_status hr2di_band_solution_take(const hr2d_solution *whole, const hr2d_link
   for (size_t k = 0; k < s->bands; k++) {
     const size_t b = hr2di_band_group_at(scene, group, k);
     s->power[k] = whole->power[b];
-    for (size_t m = 0; m < 2 && s->gas; m++) s->gas[2 * k + m] = whole->gas[2 * b + m];
+    for (size_t g = 0; g < scene->gases.count && s->gas; g++)
+      memcpy(hr2di_solution_gas(s, g, k), hr2di_solution_gas(whole, g, b), 2 * sizeof *s->gas);
   }
   s->residual = whole->residual;
   *made = s;
@@ -80,8 +83,11 @@ static void give(hr2d_solution *to, size_t group, const hr2d_solution *part) {
   for (size_t k = 0; k < part->bands; k++) {
     const size_t b = hr2di_band_group_at(scene, group, k);
     to->power[b] = part->power[k];
-    to->gas[2 * b] = part->gas ? part->gas[2 * k] : hr2di_scene_gas_emission(scene, b);
-    to->gas[2 * b + 1] = part->gas ? part->gas[2 * k + 1] : 0;
+    for (size_t g = 0; g < scene->gases.count; g++) {
+      const double clear[] = {hr2di_scene_gas_emission(scene, g, b), 0};
+      memcpy(hr2di_solution_gas(to, g, b), part->gas ? hr2di_solution_gas(part, g, k) : clear,
+             sizeof clear);
+    }
   }
   add_work(&to->work, &part->work);
   to->residual = fmax(to->residual, part->residual);

@@ -59,22 +59,42 @@ static void add_constant(hr2di_gatherer *g, const chord *leaf, const double *coe
   for (size_t b = 0; b < g->solution->bands; b++) g->value[b] += factor * coefficient[b];
 }
 
-/* Through gas B is T(κr) B and what the gas sends on the way. */
-static double arriving(const hr2di_gatherer *g, hr2di_passage pass, double value, size_t band) {
-  return pass.arrives * value + pass.absorbed * g->solution->gas[2 * band];
+/* The depth of gas on a walk, in the bands of a scene. */
+static double depth_of(const hr2d_scene *scene, hr2di_gas_walk walk) {
+  double depth = 0;
+  while (hr2di_gas_walk_next(&walk))
+    depth += hr2di_scene_scaled_absorption(scene, walk.gas) * walk.piece;
+  return depth;
 }
 
-/* Adds the light of a place at some distance, times a weight; `value` is B there, per band. */
-static void add_place(hr2di_gatherer *g, double distance, double weight, const double *value) {
-  const hr2d_scene *scene = g->solution->hierarchy->scene;
-  for (size_t k = 0; k < hr2di_band_groups(scene); k++) {
-    const hr2di_passage pass = hr2di_passage_at(
-        hr2di_scene_section(scene), hr2di_band_group_absorption(scene, k) * distance);
-    for (size_t m = 0; m < hr2di_band_group_size(scene, k); m++) {
-      const size_t b = hr2di_band_group_at(scene, k, m);
-      g->value[b] += weight * arriving(g, pass, value[b], b);
+/* Makes of g->place, which is B at a place that is seen, what of it arrives with what gases
+   send on the way: T(x_n) B + Σ (D(x_k) − D(x_{k−1})) E_k. */
+static void dim_group(hr2di_gatherer *g, size_t group, const hr2di_gas_walk *way) {
+  const hr2d_scene *whole = g->solution->hierarchy->scene,
+                   *scene = hr2di_band_group_scene(whole, group);
+  const hr2d_section section = hr2di_scene_section(scene);
+  const size_t bands = hr2di_band_group_size(whole, group);
+  const double arrives = hr2di_passage_at(section, depth_of(scene, *way)).arrives;
+  hr2di_gas_walk walk = *way;
+  double depth = 0, before = 0;
+  for (size_t m = 0; m < bands; m++) g->place[hr2di_band_group_at(whole, group, m)] *= arrives;
+  while (hr2di_gas_walk_next(&walk)) {
+    depth += hr2di_scene_scaled_absorption(scene, walk.gas) * walk.piece;
+    const double absorbed = hr2di_passage_at(section, depth).absorbed;
+    for (size_t m = 0; m < bands; m++) {
+      const size_t b = hr2di_band_group_at(whole, group, m);
+      g->place[b] += (absorbed - before) * *hr2di_solution_gas(g->solution, walk.gas, b);
     }
+    before = absorbed;
   }
+}
+
+/* Adds the light of a place to which a vector leads, times a weight; g->place is B there. */
+static void add_place(hr2di_gatherer *g, hr2d_point to, double weight) {
+  const hr2d_scene *scene = g->solution->hierarchy->scene;
+  const hr2di_gas_walk way = hr2di_gas_walk_from(scene, g->x, to);
+  for (size_t k = 0; k < hr2di_band_groups(scene); k++) dim_group(g, k, &way);
+  for (size_t b = 0; b < g->solution->bands; b++) g->value[b] += weight * g->place[b];
 }
 
 /* The light of a panel through gas, with the kernel at the points of a rule. */
@@ -85,7 +105,7 @@ static void add_through_gas(hr2di_gatherer *g, const chord *leaf, const double *
     const hr2d_point r = hr2di_block_along(leaf->from, leaf->along, 0.5 + 0.5 * xi[q]);
     for (size_t b = 0; b < bands; b++)
       g->place[b] = hr2di_basis_sum(&g->basis, xi[q], coefficient + b, bands);
-    add_place(g, sqrt(r.x * r.x + r.y * r.y), kernel[q], g->place);
+    add_place(g, r, kernel[q]);
   }
 }
 
@@ -119,27 +139,38 @@ static void add_panel(hr2di_gatherer *g, const chord *leaf, hr2di_span panel,
   }
 }
 
-/* Adds the light that a part of a leaf sends. */
-static void add_leaf(hr2di_gatherer *g, const chord *leaf, const double *coefficient,
+/* Adds the light that a part of a leaf sends, behind the same borders of gas. */
+static void add_part(hr2di_gatherer *g, const chord *leaf, const double *coefficient,
                      hr2di_span part) {
   hr2di_panels panels = {.count = 1};
-  if (!(part.to > part.from)) return;
-  if (g->solution->order == 1 && !g->has_gas) {
-    add_constant(g, leaf, coefficient, part);
-    return;
-  }
   panels.stack[0] = part;
   while (panels.count > 0) {
     const hr2di_span panel = panels.stack[--panels.count];
     double ellipse = hr2di_panel_ellipse(leaf->from, leaf->along, panel);
     if (g->has_gas) {
-      const int deep =
-          hr2di_panel_is_deep(leaf->from, leaf->along, panel, g->solution->hierarchy->scene);
+      const int deep = hr2di_panel_is_deep(g->x, leaf->from, leaf->along, panel,
+                                           g->solution->hierarchy->scene);
       if (deep && hr2di_panel_halved(&panels, panel)) continue;
       ellipse = fmin(ellipse, HR2DI_GAS_ELLIPSE);
     }
     if (ellipse < HR2DI_NEAR_ELLIPSE && hr2di_panel_halved(&panels, panel)) continue;
     add_panel(g, leaf, panel, rule_for(g, ellipse), coefficient);
+  }
+}
+
+/* Adds the light that a part of a leaf sends. */
+static void add_leaf(hr2di_gatherer *g, const chord *leaf, const double *coefficient,
+                     hr2di_span part) {
+  const hr2d_scene *scene = g->solution->hierarchy->scene;
+  if (!(part.to > part.from)) return;
+  if (g->solution->order == 1 && !g->has_gas) {
+    add_constant(g, leaf, coefficient, part);
+    return;
+  }
+  for (double from = part.from; from < part.to;) {
+    const double to = hr2di_panel_cut(g->x, leaf->from, leaf->along, from, part.to, scene);
+    add_part(g, leaf, coefficient, (hr2di_span){from, to});
+    from = to;
   }
 }
 
@@ -220,12 +251,13 @@ static void add_one(hr2di_gatherer *g, const hr2di_visible_interval *seen) {
   add_leaves(g, seen);
   const double rest = seen->sine - g->factor;
   const hr2di_span inside = inside_of(seen);
-  double distance;
-  const double at = hr2di_gatherer_nearest(g, seen->patch, inside.from, inside.to, &distance);
+  const double at = hr2di_gatherer_nearest(g, seen->patch, inside.from, inside.to, NULL);
+  const hr2d_segment patch = hr2di_solution_scene(g->solution)->patch[seen->patch].scaled;
+  const hr2d_point nearest = hr2di_point_minus(hr2di_point_at(patch, at), g->x);
   for (size_t b = 0; b < g->solution->bands; b++)
     g->place[b] = hr2d_solution_at(g->solution, seen->patch, at, b);
   if (g->has_gas) {
-    add_place(g, distance, rest, g->place);
+    add_place(g, nearest, rest);
     return;
   }
   for (size_t b = 0; b < g->solution->bands; b++) g->value[b] += rest * g->place[b];
@@ -363,9 +395,10 @@ hr2d_status hr2di_gatherer_look(hr2di_gatherer *g, size_t patch, double t,
     g->value[b] =
         background ? light_of_sky(g, seen.sky, b) + hr2d_scene_sunlight_at(scene, patch, t, b)
                    : 0;
+  /* Only one gas goes with an open scene. */
   for (size_t b = 0; b < g->solution->bands && g->has_gas; b++)
     if (hr2d_scene_absorption(scene, 0, b) > 0)
-      g->value[b] += seen.sky * g->solution->gas[2 * b];
+      g->value[b] += seen.sky * *hr2di_solution_gas(g->solution, 0, b);
   add_sky(g, patch, &seen);
   add_far_sky(g, tail.sky, tail.bearing, g->value);
   for (size_t k = 0; k < seen.count; k++) {

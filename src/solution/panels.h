@@ -7,6 +7,7 @@
 #include "blocks/block.h"
 #include "geometry/bernstein-ellipse.h"
 #include "scene/band-groups.h"
+#include "scene/regions.h"
 
 /* A panel is far enough from a point v at an ellipse of m = 1.75, ρ = 3.19 (see
    geometry/bernstein-ellipse.h). */
@@ -51,19 +52,28 @@ static inline double hr2di_panel_ellipse(hr2d_point from, hr2d_point along, hr2d
 #define HR2DI_GAS_DEEP    2
 #define HR2DI_GAS_ELLIPSE 2.5
 
-/* Whether gas of a scene asks to halve a panel that is seen from the origin: dark ones count
-   for nothing. */
-static inline int hr2di_panel_is_deep(hr2d_point from, hr2d_point along, hr2di_span panel,
-                                      const hr2d_scene *scene) {
+/* Whether gas of a scene asks to halve a panel that is seen from x, to which `from` leads: dark
+   ones count for nothing. */
+static inline int hr2di_panel_is_deep(hr2d_point x, hr2d_point from, hr2d_point along,
+                                      hr2di_span panel, const hr2d_scene *scene) {
+  const hr2di_regions *regions = hr2di_scene_regions(scene);
   const hr2d_point a = hr2di_block_along(from, along, panel.from),
                    b = hr2di_block_along(from, along, panel.to);
   const double length = hypot(b.x - a.x, b.y - a.y);
   const double least = fmin(hypot(a.x, a.y), hypot(b.x, b.y)) - length;
   for (size_t g = 0; g < hr2di_band_groups(scene); g++) {
-    const double absorption = hr2di_band_group_absorption(scene, g);
-    if (absorption * length > HR2DI_GAS_DEEP && absorption * least < HR2DI_GAS_DARK) return 1;
+    const hr2di_gas_range absorption = hr2di_band_group_range(scene, g);
+    if (absorption.most * length > HR2DI_GAS_DEEP && absorption.least * least < HR2DI_GAS_DARK)
+      return 1;
   }
-  return 0;
+  return regions && hr2di_regions_is_rough(regions, x, a, b);
+}
+
+/* The end of the part of a panel behind which a border begins or ends, or the panel's end. */
+static inline double hr2di_panel_cut(hr2d_point x, hr2d_point from, hr2d_point along,
+                                     double after, double end, const hr2d_scene *scene) {
+  const hr2di_regions *regions = hr2di_scene_regions(scene);
+  return regions ? hr2di_regions_cut(regions, x, from, along, after, end) : end;
 }
 
 #endif

@@ -25,10 +25,18 @@ struct hr2d_solution {
   hr2d_power *power;     /* per band */
   double *power_cut_off; /* per band: what images that are cut off may make of it; NULL: none
                             are, or nobody knows */
-  double *gas;           /* E_g and heat of each band; NULL: no gas */
+  double *gas; /* of each gas E_g and heat of each band, see hr2di_solution_gas(); NULL: none */
   hr2d_solve_work work;
   double residual;
 };
+
+/* E_g and the heat of a gas in a band. */
+static inline double *hr2di_solution_gas(const hr2d_solution *s, size_t gas, size_t band) {
+  return s->gas + 2 * (gas * s->bands + band);
+}
+
+/* The largest |E_g| of all gases in a band; 0 without gas. */
+double hr2di_solution_hottest(const hr2d_solution *s, size_t band);
 
 /* The scene whose light the solution has: that of its hierarchy, or its own. */
 static inline const hr2d_scene *hr2di_solution_scene(const hr2d_solution *solution) {

@@ -189,13 +189,21 @@ hr2d_power hr2d_solution_power(const hr2d_solution *solution, size_t band) {
   return solution->power[band];
 }
 
+double hr2di_solution_hottest(const hr2d_solution *s, size_t band) {
+  double most = 0;
+  for (size_t k = 0; k < s->hierarchy->scene->gases.count && s->gas; k++)
+    most = fmax(most, fabs(*hr2di_solution_gas(s, k, band)));
+  return most;
+}
+
 hr2d_status hr2d_solution_gas(const hr2d_solution *solution, size_t gas, size_t band,
                               double *emission, double *heat) {
   if (!solution || band >= solution->bands) return HR2D_EINVAL;
   const hr2d_scene *scene = hr2di_solution_scene(solution);
   if (gas >= hr2d_scene_gases(scene)) return HR2D_EINVAL;
-  if (emission) *emission = solution->gas ? solution->gas[2 * band] : 0;
-  if (heat) *heat = solution->gas ? solution->gas[2 * band + 1] : 0;
+  const double *of = solution->gas ? hr2di_solution_gas(solution, gas, band) : NULL;
+  if (emission) *emission = of ? of[0] : 0;
+  if (heat) *heat = of ? of[1] : 0;
   return HR2D_OK;
 }
 

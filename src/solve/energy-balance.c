@@ -10,6 +10,7 @@
 #include "links/components.h"
 #include "links/patch-defect.h"
 #include "scene/scene-impl.h"
+#include "solve/gas-light.h"
 #include "solve/scattering.h"
 
 /* A component is closed if its row sums miss at most HR2DI_DEFECT_CLOSED of 1; they are 1 on
@@ -29,17 +30,17 @@ static double absorptance_of(const hr2di_transport *t, size_t leaf, size_t band)
   return hr2di_scene_absorptance(t->scene, leaf_of(t, leaf)->patch, band);
 }
 
-/* Gas of given heat joins all patches. */
+/* Gas of given heat joins patches; nobody asks which. */
 static size_t component_of(const hr2di_transport *t, hr2di_components *c, size_t leaf) {
-  return t->gas_all > 0 ? 0 : hr2di_component(c, leaf_of(t, leaf)->patch);
+  return t->gas_return ? 0 : hr2di_component(c, leaf_of(t, leaf)->patch);
 }
 
 /* 1 − K1, in one band; with gas that is m, which is known better. */
 static hr2d_status set_missing(hr2di_balance *b, hr2di_transport *t) {
   const size_t field = t->leaves * t->order, bands = t->bands;
   if (t->gas) {
-    memcpy(b->missing, t->gas, field * sizeof *b->missing);
-    for (size_t k = 0; k < field && t->gas_all > 0; k++) b->missing[k] = 0;
+    const double *lost = hr2di_gas_light_lost(t);
+    for (size_t k = 0; k < field; k++) b->missing[k] = lost ? lost[k] : 0;
     return HR2D_OK;
   }
   double *unit = hr2di_alloc_zero(&t->alloc, 2 * field, sizeof *unit);
@@ -77,8 +78,8 @@ static hr2d_status number(hr2di_balance *b, const hr2di_transport *t, hr2di_comp
     if (mine->number == 0)
       mine->number = missing <= LITTLE * length ? (uint32_t)++b->count : HR2DI_OPEN;
     b->component[k] = mine->number == HR2DI_OPEN ? HR2DI_OPEN : mine->number - 1;
-    if (hr2di_balance_holds(b, k) && (t->gas || missing > HR2DI_DEFECT_CLOSED * length))
-      continue;
+    const double closed = t->gas ? 0 : HR2DI_DEFECT_CLOSED * length;
+    if (hr2di_balance_holds(b, k) && missing > closed) continue;
     for (size_t l = 0; l < t->order; l++) b->missing[k * t->order + l] = 0;
   }
   return status;
@@ -246,7 +247,7 @@ double hr2di_balance_doubt(const hr2di_balance *b, const hr2di_transport *t) {
   const size_t bands = t->bands;
   const double rounding = t->blocks.single ? HR2DI_SINGLE_ROUNDING : DBL_EPSILON;
   double max = 0;
-  if (t->gas && !(t->gas_all > 0)) return rounding;
+  if (hr2di_gas_light_lost(t)) return rounding;
   for (size_t k = 0; k < b->count * bands; k++)
     if (b->escape[k / bands] > 0 && b->level[k] != 0)
       max = fmax(max, rounding * b->length[k / bands] / b->loss[k]);

@@ -57,12 +57,15 @@ hr2d_status hr2di_equation_check_sign(hr2di_equation *s) {
   const hr2di_transport *t = &s->transport;
   const double min = t->order > 1 ? 1e-2 : 1e-6;
   const size_t taker = find_taker(t->scene);
-  const int takes = hr2di_scene_gas_heat(t->scene) < 0;
-  if (takes && hr2di_gas_light_emission(t, 0, s->exponent[0], s->radiosity) < 0)
-    return hr2di_message_fail(
-        &s->links->message, HR2D_ENO_SOLUTION,
-        "no solution: the gas would be colder than 0 K: its negative heat "
-        "takes away more than there is");
+  int takes = 0;
+  for (size_t k = 0; k < t->scene->gases.count && t->gas; k++) {
+    takes |= hr2di_scene_gas_heat(t->scene, k) < 0;
+    if (hr2di_gas_light_emission(t, k, 0, s->exponent[0], s->radiosity) < 0)
+      return hr2di_message_fail(
+          &s->links->message, HR2D_ENO_SOLUTION,
+          "no solution: the gas would be colder than 0 K: its negative heat "
+          "takes away more than there is");
+  }
   if (takes || taker < t->scene->patches) return check_averages(s, min);
   for (size_t b = 0; b < t->bands; b++) {
     double low = 0, high = 0;

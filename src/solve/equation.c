@@ -87,8 +87,8 @@ static void set_exponents(hr2di_equation *s) {
   const hr2d_scene *scene = s->transport.scene;
   for (size_t b = 0; b < scene->bands; b++) {
     double max = fmax(hr2di_sky_max(scene, b), hr2d_scene_sun(scene, b).irradiance);
-    if (s->transport.gas)
-      max = fmax(max, fabs(hr2di_gas_light_emission(&s->transport, b, 0, s->y)));
+    for (size_t k = 0; k < scene->gases.count && s->transport.gas; k++)
+      max = fmax(max, fabs(hr2di_gas_light_emission(&s->transport, k, b, 0, s->y)));
     for (size_t k = 0; k < scene->patches; k++)
       max = fmax(max, fabs(hr2d_scene_emission(scene, k, b)));
     s->exponent[b] = max > 0 ? ilogb(max) : 0;

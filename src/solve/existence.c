@@ -134,10 +134,12 @@ static hr2d_status sum_exchange(const hr2d_linkset *links, exchange *e, hr2di_wa
   return status ? status : hr2di_watch_work(watch, scene->patches / 2);
 }
 
-/* Gas absorbs everywhere; if its heat is given, only patches keep what they absorb. */
+/* Gas absorbs; if its heat is given, it keeps nothing. */
 static hr2d_status check_gas(hr2d_linkset *links, const hr2d_scene *scene) {
   int absorbs = 0, sends = hr2di_scene_gas_emits(scene);
-  if (!hr2di_scene_gas_is_free(scene)) return HR2D_OK;
+  if (!hr2di_scene_has_free_gas(scene)) return HR2D_OK;
+  for (size_t k = 0; k < scene->gases.count; k++)
+    absorbs |= !hr2di_scene_gas_is_free(scene, k) && hr2d_scene_absorption(scene, k, 0) > 0;
   for (size_t k = 0; k < scene->patches; k++) {
     absorbs |= hr2d_scene_reflectance(scene, k, 0) < 1;
     sends |= hr2d_scene_emission(scene, k, 0) != 0 ||

@@ -40,6 +40,7 @@ static hr2d_status warm_start(hr2di_equation *s) {
    digits: iterations would end as soon as their tolerance allows. */
 static hr2d_status level_start(hr2di_equation *s) {
   const hr2di_transport *t = &s->transport;
+  const double *lost_to_gas = hr2di_gas_light_lost(t);
   for (size_t b = 0; b < t->bands; b++) {
     hr2di_sum in = {0, 0}, lost = {0, 0};
     for (size_t k = 0; k < t->leaves; k++) {
@@ -47,7 +48,7 @@ static hr2d_status level_start(hr2di_equation *s) {
       const double area = hr2di_gas_light_area(t, k);
       hr2di_sum_add(&in, area * (s->source[at] + (s->outside ? s->outside[at] : 0)));
       hr2di_sum_add(&lost, area * (hr2di_scene_absorptance(t->scene, patch, b) +
-                                   t->gas[k * t->gas_order]));
+                                   lost_to_gas[k * t->gas_order]));
     }
     const double level = hr2di_sum_total(&in) / hr2di_sum_total(&lost);
     for (size_t k = 0; k < t->leaves * t->order; k++)
@@ -59,5 +60,5 @@ static hr2d_status level_start(hr2di_equation *s) {
 
 hr2d_status hr2di_first_guess(hr2di_equation *s) {
   if (s->options.start) return warm_start(s);
-  return s->transport.gas && !(s->transport.gas_all > 0) ? level_start(s) : HR2D_OK;
+  return hr2di_gas_light_lost(&s->transport) ? level_start(s) : HR2D_OK;
 }

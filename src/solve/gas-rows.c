@@ -14,6 +14,7 @@
 #include "scene/scene-impl.h"
 #include "scene/with-plane.h"
 #include "solve/closure.h"
+#include "solve/gas-heat.h"
 #include "solve/gas-light.h"
 #include "solve/row-sums.h"
 #include "visibility/back-visibility.h"
@@ -35,26 +36,50 @@ static hr2d_status add_clusters(hr2di_transport *t) {
   return status;
 }
 
-/* Sums over links into t->down, one after the other. */
-static hr2d_status sum_links(hr2di_transport *t) {
+/* Sums numbers of links into t->down: on elements of i those at `on_i` of what a link loses to
+   gas, on those of j those at `on_j`. */
+static hr2d_status sum_links(hr2di_transport *t, size_t on_i, size_t on_j) {
   const hr2d_linkset *links = t->links;
-  const size_t order = t->order, stride = t->blocks.lost_order;
-  memset(t->down, 0, t->elements * order * sizeof *t->down);
-  const hr2d_status status = add_clusters(t);
-  if (status) return status;
+  const size_t order = t->order, stride = hr2di_link_blocks_lost(&t->blocks);
   for (uint64_t k = 0; k < links->store.count; k++) {
     if (k % 64 == 0 && hr2di_watch_work(t->watch, 1 + 8 * order)) break;
     const hr2d_pair pair = hr2di_store_link(&links->store, k).pair;
-    const double *lost = t->blocks.lost + 2 * k * stride;
-    for (size_t l = 0; l < order; l++) t->down[pair.first * order + l] += lost[l];
+    const double *lost = t->blocks.lost + k * stride;
+    for (size_t l = 0; l < order; l++) t->down[pair.first * order + l] += lost[on_i + l];
     for (size_t l = 0; l < order && !links->directed; l++)
-      t->down[pair.second * order + l] += lost[stride + l];
+      t->down[pair.second * order + l] += lost[on_j + l];
   }
   hr2di_image_map_fold(&t->image_map, order, 1, t->down);
   for (size_t e = 0; e < t->elements; e++)
     for (size_t l = 0; l < order; l++)
       t->down[e * order + l] /= t->hierarchy->element[e].length;
   return hr2di_transport_status(t);
+}
+
+static void clear_down(hr2di_transport *t) {
+  memset(t->down, 0, t->elements * t->order * sizeof *t->down);
+}
+
+/* What all gas takes, one link after the other. */
+static hr2d_status sum_all(hr2di_transport *t) {
+  clear_down(t);
+  const hr2d_status status = add_clusters(t);
+  return status ? status : sum_links(t, 0, t->blocks.lost_order);
+}
+
+/* Sets what each gas takes, where there are borders, in the way the whole of it was lowered. */
+static hr2d_status set_parts(hr2di_transport *t) {
+  const size_t gases = t->blocks.gases, order = t->blocks.lost_order;
+  hr2d_status status = HR2D_OK;
+  if (!gases) return HR2D_OK;
+  t->gas_of = hr2di_alloc_zero(&t->alloc, gases * t->leaves, t->order * sizeof *t->gas_of);
+  if (!t->gas_of) return HR2D_ENOMEM;
+  for (size_t k = 0; k < gases && !status; k++) {
+    clear_down(t);
+    status = sum_links(t, (2 + k) * order, (2 + gases + k) * order);
+    if (!status) hr2di_transport_lower(t, t->gas_of + k * t->leaves * t->order);
+  }
+  return status;
 }
 
 /* m = 1 − K1 on leaves of open patches, at an order above 1. */
@@ -85,18 +110,21 @@ static hr2d_status check_backs(hr2di_transport *t, const unsigned char *closed,
   return status;
 }
 
-/* Gas of given heat needs all of its light: what leaves the scene would heat gas outside. */
+/* Gas of given heat needs all of its light: what leaves the scene would heat gas outside.  And
+   outside of a scene with borders there is nobody to say which gas there is. */
 static hr2d_status take_heat(hr2di_transport *t, int all_closed, hr2di_message *message) {
-  hr2di_sum all = {0, 0};
-  if (!hr2di_scene_gas_is_free(t->hierarchy->scene)) return HR2D_OK;
-  if (!all_closed)
+  const hr2d_scene *scene = t->hierarchy->scene;
+  if (!all_closed && t->blocks.gases)
+    return hr2di_message_fail(message, HR2D_EUNSUPPORTED,
+                              "a gas has a border, and the scene is open: draw black walls "
+                              "around it, of reflectance 0, without emission if nothing comes "
+                              "from there");
+  if (!all_closed && hr2di_scene_has_free_gas(scene))
     return hr2di_message_fail(message, HR2D_EUNSUPPORTED,
                               "the heat of the gas is given, and the scene is open: light that "
                               "leaves it would heat gas without end");
-  for (size_t k = 0; k < t->leaves; k++)
-    hr2di_sum_add(&all, hr2di_gas_light_area(t, k) * t->gas[k * t->order]);
-  t->gas_all = hr2di_sum_total(&all);
-  return HR2D_OK;
+  const hr2d_status status = set_parts(t);
+  return status ? status : hr2di_gas_heat_set(t, message);
 }
 
 /* From here on the way is that of closure without gas. */
@@ -144,7 +172,7 @@ hr2d_status hr2di_gas_rows_set(hr2di_transport *t, int closed, uint64_t *leaves,
   t->gas = hr2di_alloc_zero(&t->alloc, t->leaves * t->order, sizeof *t->gas);
   t->gas_order = t->order;
   if (!t->gas) return HR2D_ENOMEM;
-  hr2d_status status = sum_links(t);
+  hr2d_status status = sum_all(t);
   if (status) return status;
   return t->order == 1 ? close_order_1(t, closed, leaves, message)
                        : close_order_p(t, closed, message);

@@ -54,8 +54,8 @@ static void add_escape(const hr2di_equation *s, size_t leaf, size_t band, hr2di_
   const hr2di_transport *t = &s->transport;
   const size_t at = leaf * t->width + band;
   const double area = s->weight[leaf * t->order];
-  const double *missing = t->gas ? t->gas : s->balance.missing;
-  if (t->gas_all > 0) return;
+  const double *missing = t->gas ? hr2di_gas_light_lost(t) : s->balance.missing;
+  if (t->gas && !missing) return;
   if (!t->gas && !hr2di_balance_holds(&s->balance, leaf)) {
     hr2di_sum_add(escaped, area * s->radiosity[at]);
     hr2di_sum_add(escaped, -area * s->irradiance[at]);
@@ -103,16 +103,19 @@ static int take_raised(hr2di_equation *s, const double *leaf_field, double *fiel
   return finite;
 }
 
-/* Sets E_g and the heat of the gas in all bands. */
+/* Sets E_g and the heat of all gases in all bands. */
 static hr2d_status set_gas(const hr2di_equation *s, hr2d_solution *made) {
   const hr2di_transport *t = &s->transport;
   const double unit = hr2d_scene_unit(t->scene);
-  made->gas = hr2di_alloc(&made->alloc, t->bands, 2 * sizeof *made->gas);
-  for (size_t b = 0; b < t->bands && made->gas; b++) {
-    const int e = s->exponent[b];
-    made->gas[2 * b] = ldexp(hr2di_gas_light_emission(t, b, e, s->radiosity), e);
-    made->gas[2 * b + 1] = ldexp(unit * hr2di_gas_light_heat(t, b, e, s->radiosity), e);
-  }
+  made->gas =
+      hr2di_alloc(&made->alloc, t->scene->gases.count * t->bands, 2 * sizeof *made->gas);
+  for (size_t k = 0; k < t->scene->gases.count && made->gas; k++)
+    for (size_t b = 0; b < t->bands; b++) {
+      const int e = s->exponent[b];
+      double *of = hr2di_solution_gas(made, k, b);
+      of[0] = ldexp(hr2di_gas_light_emission(t, k, b, e, s->radiosity), e);
+      of[1] = ldexp(unit * hr2di_gas_light_heat(t, k, b, e, s->radiosity), e);
+    }
   return made->gas ? HR2D_OK : HR2D_ENOMEM;
 }
 

@@ -125,6 +125,10 @@ void hr2di_transport_clear(hr2di_transport *t) {
   hr2di_alloc_free(&t->alloc, t->rows);
   hr2di_alloc_free(&t->alloc, t->sky);
   hr2di_alloc_free(&t->alloc, t->gas);
+  hr2di_alloc_free(&t->alloc, t->gas_of);
+  hr2di_alloc_free(&t->alloc, t->gas_exchange);
+  hr2di_alloc_free(&t->alloc, t->gas_return);
+  hr2di_alloc_free(&t->alloc, t->gas_kept);
 }
 
 /* Keeps what stopped the watch; whether anything has failed.  Other shares are told at once, as
@@ -368,5 +372,5 @@ void hr2di_transport_close(const hr2di_transport *t, const double *radiosity,
 void hr2di_transport_apply(hr2di_transport *t, const double *radiosity, double *irradiance) {
   hr2di_transport_apply_part(t, HR2DI_ALL_LINKS, radiosity, irradiance);
   hr2di_transport_close(t, radiosity, irradiance);
-  if (t->gas_all > 0) hr2di_gas_light_return(t, radiosity, irradiance);
+  if (t->gas_return) hr2di_gas_light_return(t, radiosity, irradiance);
 }

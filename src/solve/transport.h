@@ -37,9 +37,16 @@ typedef struct hr2di_transport {
   double *gas;      /* leaves × order: the part m of the light of a leaf that gas absorbs, or
                        that escapes into it; so much of E_g arrives from it.  NULL: no gas */
   size_t gas_order; /* coefficients on each leaf of `gas`; the first `order` of them count */
-  double gas_all;   /* ∫m if gas gives back what it takes, as its heat is given; else 0 */
-  size_t slices;    /* parts into which the links are cut, whatever the number of threads */
-  unsigned threads; /* as in options */
+  double *gas_of;   /* with borders, per gas the part of m that is its own, as `gas` is; NULL:
+                       there is one gas */
+  double
+      *gas_exchange;  /* with borders, gases × gases: their exchange areas of E_g; else NULL */
+  double *gas_return; /* gases × gases: E_g of those of given heat, from what they get; and room
+                         for as many numbers as there are gases.  NULL: no heat is given */
+  double *gas_kept;   /* the part of m that gases of given heat do not give back, as `gas` is;
+                         NULL: they give back all */
+  size_t slices;      /* parts into which the links are cut, whatever the number of threads */
+  unsigned threads;   /* as in options */
   hr2di_cluster_room room;
   uint64_t sweeps; /* gathers so far */
   hr2di_watch *watch;

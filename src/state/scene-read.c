@@ -310,8 +310,8 @@ static void empty(hr2d_scene *scene) {
 hr2d_status hr2d_state_read_scene(hr2d_scene *scene, hr2d_read_fn read, void *ctx) {
   if (!scene || !read) return HR2D_EINVAL;
   if (scene->committed || scene->patches > 0 || scene->background ||
-      hr2di_scene_spectral_bands(scene) > 1 || scene->gas || scene->sun || scene->sky.pieces ||
-      hr2di_symmetry_wanted(&scene->symmetry))
+      hr2di_scene_spectral_bands(scene) > 1 || scene->gases.count || scene->sun ||
+      scene->sky.pieces || hr2di_symmetry_wanted(&scene->symmetry))
     return hr2di_message_fail(&scene->message, HR2D_ESTATE, "the scene is not empty");
   loading l = {.scene = scene};
   hr2di_scene_watch(scene, &l.watch, NULL, NULL, "state");

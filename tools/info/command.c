@@ -65,17 +65,22 @@ static void print_background(const hr2d_scene *scene) {
 }
 
 /* κ of all bands. */
-static void print_gas(const hr2d_scene *scene) {
+static void print_one_gas(const hr2d_scene *scene, size_t gas) {
   double least = HUGE_VAL, most = 0;
-  if (!hr2d_scene_gases(scene)) return;
   for (size_t b = 0; b < hr2d_scene_bands(scene); b++) {
-    least = fmin(least, hr2d_scene_absorption(scene, 0, b));
-    most = fmax(most, hr2d_scene_absorption(scene, 0, b));
+    least = fmin(least, hr2d_scene_absorption(scene, gas, b));
+    most = fmax(most, hr2d_scene_absorption(scene, gas, b));
   }
+  char title[32] = "gas";
+  if (hr2d_scene_gases(scene) > 1) snprintf(title, sizeof title, "gas %zu", gas);
   if (least < most)
-    printf("gas           absorbs %.6g to %.6g per length\n", least, most);
+    printf("%-13s absorbs %.6g to %.6g per length\n", title, least, most);
   else
-    printf("gas           absorbs %.6g per length\n", most);
+    printf("%-13s absorbs %.6g per length\n", title, most);
+}
+
+static void print_gas(const hr2d_scene *scene) {
+  for (size_t k = 0; k < hr2d_scene_gases(scene); k++) print_one_gas(scene, k);
 }
 
 static void print_symmetry(const hr2d_scene *scene) {

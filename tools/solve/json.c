@@ -178,18 +178,23 @@ static json_t *target(const run *r) {
   return object;
 }
 
-/* Of each band; nothing is said without gas. */
+static json_t *gas_in(const run *r, size_t gas, size_t band) {
+  double emission = NAN, heat = NAN;
+  json_t *object = json_object();
+  hr2d_solution_gas(r->solution, gas, band, &emission, &heat);
+  json_put(&object, "gas", json_count(gas));
+  json_put(&object, "band", json_count(band));
+  json_put(&object, "absorption", json_number(hr2d_scene_absorption(r->scene, gas, band)));
+  json_put(&object, "emission", json_number(emission));
+  json_put(&object, "heat", json_number(heat));
+  return object;
+}
+
+/* Of each gas and band; nothing is said without gas. */
 static json_t *gas(const run *r) {
   json_t *list = json_array();
-  for (size_t b = 0; b < hr2d_scene_bands(r->scene); b++) {
-    double emission = NAN, heat = NAN;
-    json_t *band = json_object();
-    hr2d_solution_gas(r->solution, 0, b, &emission, &heat);
-    json_put(&band, "absorption", json_number(hr2d_scene_absorption(r->scene, 0, b)));
-    json_put(&band, "emission", json_number(emission));
-    json_put(&band, "heat", json_number(heat));
-    json_push(&list, band);
-  }
+  for (size_t k = 0; k < hr2d_scene_gases(r->scene); k++)
+    for (size_t b = 0; b < hr2d_scene_bands(r->scene); b++) json_push(&list, gas_in(r, k, b));
   return list;
 }
 

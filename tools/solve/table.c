@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "cli/scene.h"
 #include "output/complain.h"
@@ -216,20 +217,26 @@ static void print_power(const run *r) {
   }
 }
 
-/* What the gas gives to the patches, or takes from them. */
-static void print_gas(const run *r) {
-  const size_t bands = hr2d_scene_bands(r->scene);
-  for (size_t b = 0; b < bands; b++) {
-    double emission, heat;
-    if (!scene_has_gas(r->scene) || hr2d_solution_gas(r->solution, 0, b, &emission, &heat))
-      continue;
-    char title[32] = "gas";
-    if (bands > 1) snprintf(title, sizeof title, "gas %zu", b);
-    if (hr2d_scene_absorption(r->scene, 0, b) > 0)
-      printf("%-9s emission %.6g, gives %.6g to the patches\n", title, emission, heat);
-    else
-      printf("%-9s lets all light of this band through\n", title);
+/* What a gas gives to the patches, or takes from them. */
+static void print_gas_in(const run *r, size_t gas, size_t band) {
+  char title[48] = "gas";
+  double emission, heat;
+  if (hr2d_solution_gas(r->solution, gas, band, &emission, &heat)) return;
+  if (hr2d_scene_gases(r->scene) > 1) snprintf(title, sizeof title, "gas %zu", gas);
+  if (hr2d_scene_bands(r->scene) > 1) {
+    const size_t end = strlen(title);
+    snprintf(title + end, sizeof title - end, "%s%zu", end > 3 ? ", band " : " ", band);
   }
+  if (hr2d_scene_absorption(r->scene, gas, band) > 0)
+    printf("%-9s emission %.6g, gives %.6g to %s\n", title, emission, heat,
+           hr2d_scene_gases(r->scene) > 1 ? "patches and other gases" : "the patches");
+  else
+    printf("%-9s lets all light of this band through\n", title);
+}
+
+static void print_gas(const run *r) {
+  for (size_t k = 0; k < hr2d_scene_gases(r->scene) && scene_has_gas(r->scene); k++)
+    for (size_t b = 0; b < hr2d_scene_bands(r->scene); b++) print_gas_in(r, k, b);
 }
 
 static void print_effort(const run *r, const hr2d_refine_counts *n) {
