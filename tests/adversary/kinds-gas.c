@@ -76,6 +76,18 @@ static void many(adv_scene *scene, adv_random *r) {
   adv_fill_gas(scene, r, 0.01, 10, 0);
 }
 
+/* A part with a border of its own, which may reach into walls, in a room with a screen perhaps.
+ */
+static void parted(adv_scene *scene, adv_random *r) {
+  double w, h;
+  scene->bands = (size_t)adv_int(r, 1, 2);
+  adv_room(scene, r, &w, &h);
+  adv_screens(scene, r, adv_int(r, 0, 1), (const double[4]){0, 0, w, h}, 0.25, 1.5);
+  adv_paint(scene, r, 0.8);
+  adv_fill_gas(scene, r, 0.01, 10, 0);
+  adv_part_gas(scene, r, (const double[4]){-0.2 * w, -0.2 * h, 1.2 * w, 1.2 * h});
+}
+
 /* Two-sided screens in the open. */
 static void open_gas(adv_scene *scene, adv_random *r) {
   scene->bands = (size_t)adv_int(r, 1, 2);
@@ -92,5 +104,6 @@ const adv_kind adv_gases[] = {
     {"gas-obstacles", obstacles, "screens and panes in a room with gas"},
     {"gas-heated", heated, "gas of given heat, which finds its temperature"},
     {"gas-many", many, "round rooms of more than 256 patches, with clusters in gas"},
+    {"gas-parted", parted, "two gases with a border between them"},
     {"gas-open", open_gas, "screens in gas without walls around it"},
     {NULL, NULL, NULL}};

@@ -206,6 +206,7 @@ static void furnace_is_even(adv_trial *trial) {
       copy->patch[k].emission[band] = 1 - adv_scattered(&copy->patch[k], band);
     copy->background[band] = adv_has_gas(copy) ? 0 : adv_int(&trial->random, 0, 1) / 2.0;
     copy->hot[band] = !copy->heated;
+    copy->warm = 1;
   }
   transform(trial, copy);
   ask_all(trial, 0, question);

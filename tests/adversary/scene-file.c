@@ -85,6 +85,25 @@ static void write_gas(FILE *file, const adv_scene *scene) {
   fprintf(file, "}");
 }
 
+static void write_border(FILE *file, const adv_scene *scene) {
+  double kappa[ADV_BANDS], hot[ADV_BANDS];
+  for (size_t b = 0; b < scene->bands; b++) {
+    kappa[b] = scene->dark * scene->kappa[b];
+    hot[b] = scene->warm * scene->hot[b];
+  }
+  fprintf(file, ",\n{\"type\": \"Feature\", \"properties\": {\"medium\": {");
+  write_values(file, "absorption", kappa, scene->bands);
+  fprintf(file, ", ");
+  write_values(file, "emission", hot, scene->bands);
+  fprintf(file, "}}, \"geometry\": {\"type\": \"Polygon\", \"coordinates\": [[");
+  for (size_t k = 0; k <= scene->corners; k++) {
+    const int64_t *at = scene->border[k % scene->corners];
+    fprintf(file, "%s[%.17g, %.17g]", k ? ", " : "", ldexp((double)at[0], scene->exponent),
+            ldexp((double)at[1], scene->exponent));
+  }
+  fprintf(file, "]]}}");
+}
+
 int adv_write(const adv_scene *scene, const char *path) {
   FILE *file = fopen(path, "w");
   if (!file) return 0;
@@ -96,6 +115,7 @@ int adv_write(const adv_scene *scene, const char *path) {
   fprintf(file, "}, \"features\": [");
   for (size_t k = 0; k < scene->count; k++) write_patch(file, scene, k);
   for (size_t k = 0; k < scene->mirrors; k++) write_mirror(file, scene, k);
+  if (scene->corners) write_border(file, scene);
   fprintf(file, "\n]}\n");
   return !fclose(file);
 }

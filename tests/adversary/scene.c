@@ -140,6 +140,8 @@ int adv_bits(const adv_scene *scene) {
     for (int end = 0; end < 2; end++)
       max = larger(
           max, larger(magnitude(scene->mirror[k].x[end]), magnitude(scene->mirror[k].y[end])));
+  for (size_t k = 0; k < scene->corners; k++)
+    max = larger(max, larger(magnitude(scene->border[k][0]), magnitude(scene->border[k][1])));
   for (int axis = 0; axis < 2; axis++) max = larger(max, larger(-e.low[axis], e.high[axis]));
   int bits = 0;
   while (max >> bits) bits++;
@@ -207,6 +209,15 @@ void adv_fill_gas(adv_scene *scene, adv_random *r, double low, double high, int 
   }
 }
 
+void adv_part_gas(adv_scene *scene, adv_random *r, const double box[4]) {
+  scene->corners = (size_t)adv_int(r, 3, ADV_CORNERS);
+  scene->dark = adv_chance(r, 0.2) ? 0 : exp(adv_real(r, log(0.1), log(10)));
+  scene->warm = adv_int(r, 0, 16) / 4.0;
+  for (size_t k = 0; k < scene->corners; k++)
+    for (int axis = 0; axis < 2; axis++)
+      scene->border[k][axis] = on_grid(scene, adv_real(r, box[axis], box[axis + 2]));
+}
+
 int adv_has_gas(const adv_scene *scene) {
   for (size_t b = 0; b < scene->bands; b++)
     if (scene->kappa[b] > 0) return 1;
@@ -216,6 +227,27 @@ int adv_has_gas(const adv_scene *scene) {
 void adv_scale_gas(adv_scene *scene, double factor) {
   for (size_t b = 0; b < ADV_BANDS; b++) scene->kappa[b] /= factor;
   if (scene->heated) scene->hot[0] *= factor;
+}
+
+static hr2d_point on_scene(const adv_scene *scene, int64_t x, int64_t y) {
+  return (hr2d_point){ldexp((double)x, scene->exponent), ldexp((double)y, scene->exponent)};
+}
+
+/* The gas within the border, like that around. */
+static hr2d_status part_gas(const adv_scene *scene, hr2d_gas gas, hr2d_scene *built) {
+  double kappa[ADV_BANDS], hot[ADV_BANDS];
+  hr2d_point border[ADV_CORNERS];
+  for (size_t b = 0; b < scene->bands; b++) {
+    kappa[b] = scene->dark * scene->kappa[b];
+    hot[b] = scene->warm * scene->hot[b];
+  }
+  for (size_t k = 0; k < scene->corners; k++)
+    border[k] = on_scene(scene, scene->border[k][0], scene->border[k][1]);
+  gas.absorption = kappa;
+  gas.emission = hot;
+  gas.border = border;
+  gas.border_points = scene->corners;
+  return hr2d_scene_add_gas(built, &gas, NULL);
 }
 
 static hr2d_status set_gas(const adv_scene *scene, hr2d_scene *built) {
@@ -228,11 +260,8 @@ static hr2d_status set_gas(const adv_scene *scene, hr2d_scene *built) {
   gas.given = scene->heated ? HR2D_HEAT_FLUX : HR2D_HEAT_NONE;
   gas.value = scene->heated ? scene->hot[0] : 0;
   gas.section = scene->flat ? HR2D_SECTION_FLAT : HR2D_SECTION_LONG;
-  return hr2d_scene_add_gas(built, &gas, NULL);
-}
-
-static hr2d_point on_scene(const adv_scene *scene, int64_t x, int64_t y) {
-  return (hr2d_point){ldexp((double)x, scene->exponent), ldexp((double)y, scene->exponent)};
+  const hr2d_status status = hr2d_scene_add_gas(built, &gas, NULL);
+  return status || !scene->corners ? status : part_gas(scene, gas, built);
 }
 
 static hr2d_status set_symmetry(const adv_scene *scene, hr2d_scene *built) {

@@ -13,6 +13,7 @@
 #include "adversary/random.h"
 
 #define ADV_BANDS   4
+#define ADV_CORNERS 5
 #define ADV_PATCHES 160
 #define ADV_PIECES  12
 #define ADV_MIRRORS 3
@@ -57,6 +58,9 @@ typedef struct adv_scene {
   size_t pieces;
   double kappa[ADV_BANDS], hot[ADV_BANDS]; /* of a gas: κ per length, and E_g */
   int flat, heated;                        /* its section; its heat is given, as hot[0] */
+  int64_t border[ADV_CORNERS][2]; /* a polygon within which these are so many times as large: */
+  size_t corners;                 /* 0: there is none */
+  double dark, warm;              /* κ, and E_g */
   double turned; /* B may be off by this: bearings were turned by an angle that is no double */
   double gain;   /* B is this times B of the original */
 } adv_scene;
@@ -119,6 +123,10 @@ int adv_has_sky(const adv_scene *scene);
    cold, or of given heat. */
 void adv_fill_gas(adv_scene *scene, adv_random *r, double low, double high, int heated);
 int adv_has_gas(const adv_scene *scene);
+
+/* Gives a part of the gas a border of its own, any polygon with corners in a box (x0, y0, x1,
+   y1). */
+void adv_part_gas(adv_scene *scene, adv_random *r, const double box[4]);
 
 /* The same gas in a scene that is `factor` times as large. */
 void adv_scale_gas(adv_scene *scene, double factor);

@@ -35,7 +35,7 @@ static void stretch_gas(adv_scene *scene, double factor) {
   double max = 0, light = 0;
   if (!adv_has_gas(scene) || factor == 1) return;
   for (size_t band = 0; band < scene->bands; band++) {
-    light = fmax(light, scene->hot[band]);
+    light = fmax(light, fmax(1, scene->warm) * scene->hot[band]);
     for (size_t k = 0; k < scene->count; k++) {
       max = fmax(max, adv_scattered(&scene->patch[k], band));
       light = fmax(light, scene->patch[k].emission[band]);
@@ -64,6 +64,8 @@ static int multiply(adv_scene *scene, int a, int b) {
   for (size_t k = 0; k < scene->mirrors; k++)
     for (int end = 0; end < 2; end++)
       rotate_pair(&scene->mirror[k].x[end], &scene->mirror[k].y[end], a, b);
+  for (size_t k = 0; k < scene->corners; k++)
+    rotate_pair(&scene->border[k][0], &scene->border[k][1], a, b);
   rotate_pair(&scene->period[0], &scene->period[1], a, b);
   turn_sky(scene, a, b);
   stretch_gas(scene, hypot(a, b));
@@ -106,6 +108,7 @@ static int mirror(adv_scene *scene, adv_random *r) {
       axis ? (scene->mirror[k].y[end] = -scene->mirror[k].y[end])
            : (scene->mirror[k].x[end] = -scene->mirror[k].x[end]);
   scene->period[axis] = -scene->period[axis];
+  for (size_t k = 0; k < scene->corners; k++) scene->border[k][axis] = -scene->border[k][axis];
   for (size_t band = 0; band < scene->bands; band++)
     axis ? (scene->sun[band].y = -scene->sun[band].y)
          : (scene->sun[band].x = -scene->sun[band].x);
@@ -141,6 +144,8 @@ static int shift(adv_scene *scene, adv_random *r) {
       scene->mirror[k].x[end] += by[0];
       scene->mirror[k].y[end] += by[1];
     }
+  for (size_t k = 0; k < scene->corners; k++)
+    for (int axis = 0; axis < 2; axis++) scene->border[k][axis] += by[axis];
   adv_allow_images(scene);
   return 1;
 }
@@ -231,7 +236,8 @@ static int reorder(adv_scene *scene, adv_random *r) {
 /* Room for a few patches more, and for their coordinates; what is outside of the box of a scene
    with images may be within one of theirs. */
 static int has_room(const adv_scene *scene, int bits) {
-  if (scene->heated) return 0; /* what is added takes of its heat */
+  if (scene->heated) return 0;  /* what is added takes of its heat */
+  if (scene->corners) return 0; /* gases with borders ask for a closed scene */
   return !adv_is_symmetric(scene) && scene->count + 6 <= ADV_PATCHES &&
          adv_bits(scene) + bits <= BITS;
 }
