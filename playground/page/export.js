@@ -68,7 +68,7 @@ export function toSVG({ view, scale, scene, answer, band, images }) {
   };
   for (let k = 0; k < images.length; k += 4)
     line([images[k], images[k + 1]], [images[k + 2], images[k + 3]], "#8a8f96", 2);
-  for (const w of scene.walls) line(w.a, w.b, "#10141a", w.kind === "mirror" ? 1.5 : 4, w.name);
+  for (const w of scene.walls) line(w.a, w.b, "#10141a", w.kind === "mirror" || w.kind === "gas" ? 1.5 : 4, w.name);
   for (const leaf of answer ? answer.leaves() : []) {
     const { a, b } = answer.segment(leaf);
     const n = view.front(a, b).map((v) => (4.5 * v) / view.scale);

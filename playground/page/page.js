@@ -205,7 +205,7 @@ export class Page {
     const about = Object.entries(w.properties)
       .filter(([key, v]) => LETTERS[key] && v !== null)
       .map(([key, v]) => `, ${LETTERS[key]} = ${Array.isArray(v) ? JSON.stringify(v) : short(v)}`);
-    const answer = w.kind === "mirror" ? ", a mirror" : light + heat;
+    const answer = { mirror: ", a mirror", gas: ", the border of a gas" }[w.kind] ?? light + heat;
     return `${w.name}, from ${point(w.a)} to ${point(w.b)}${about.join("")}${answer}`;
   }
 

@@ -205,13 +205,15 @@ export const PROPERTIES = {
   heat: ["heat", "emissivity", "Heat, W/m"],
   shield: [null, "emissivity", ""],
   mirror: [null, null, ""],
+  gas: [null, null, ""],
 };
 
 /** Fills the controls of the chosen wall, or switches them off. */
 export function showWall(scene, chosen, band) {
   const wall = scene.walls[chosen];
   const [first, second, label] = PROPERTIES[wall?.kind ?? "light"];
-  for (const id of ["both", "flip", "delete", "kind", "properties"]) $(id).disabled = !wall;
+  for (const id of ["delete", "properties"]) $(id).disabled = !wall;
+  for (const id of ["both", "flip", "kind"]) $(id).disabled = !wall || wall.kind === "gas";
   $("wall").value = wall ? String(chosen) : "";
   $("kind").value = wall ? wall.kind : "";
   $("first-label").textContent = label;

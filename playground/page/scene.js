@@ -146,7 +146,8 @@ export class Scene {
           this.walls.push(this.wall(index, properties, line, runs[k], runs[k + 1]));
       }
       const count = this.walls.length - first;
-      for (const w of this.walls.slice(first)) w.alone = count === 1;
+      // The sides of a border stay together.
+      for (const w of this.walls.slice(first)) w.alone = count === 1 || w.kind === "gas";
     });
   }
 
@@ -159,7 +160,7 @@ export class Scene {
       line,
       properties,
       kind,
-      both: kind !== "mirror" && properties.sides === "both",
+      both: isPatch({ kind }) && properties.sides === "both",
       name: name ?? String(properties.name ?? kind),
       runs: { a: start, b: end },
       a: start.point,
@@ -173,7 +174,7 @@ export class Scene {
     const facts = [];
     let at = 0;
     for (const [k, w] of this.walls.entries()) {
-      if (w.kind === "mirror") {
+      if (!isPatch(w)) {
         facts.push({ turned: false });
         continue;
       }
@@ -205,7 +206,7 @@ export class Scene {
     };
     const cuts = [];
     for (const w of this.walls) {
-      if (w.kind === "mirror") continue;
+      if (!isPatch(w)) continue;
       const turned = patches[at] && same(patches[at].a, w.b);
       const [from, to] = turned ? [w.b, w.a] : [w.a, w.b];
       const points = piecesUpTo(from, to);
@@ -483,12 +484,15 @@ export class Scene {
 
   remove(wall) {
     this.separate(wall);
-    this.document.features.splice(this.walls[wall].feature, 1);
-    this.facts.splice(wall, 1);
+    const { feature } = this.walls[wall];
+    const first = this.walls.findIndex((w) => w.feature === feature);
+    this.facts.splice(first, this.walls.filter((w) => w.feature === feature).length);
+    this.document.features.splice(feature, 1);
     this.update();
   }
 
   turn(wall) {
+    if (this.walls[wall].kind === "gas") return;
     this.separate(wall);
     const w = this.walls[wall];
     const feature = this.document.features[w.feature];
@@ -500,14 +504,18 @@ export class Scene {
   }
 }
 
+/** Lines of mirrors and sides of the border of a gas are no patches. */
+const isPatch = (wall) => wall.kind !== "mirror" && wall.kind !== "gas";
+
 /** How many patches a wall is. */
 function patchesOf(wall) {
-  if (wall.kind === "mirror") return 0;
+  if (!isPatch(wall)) return 0;
   return wall.both ? 2 : 1;
 }
 
 /** Which of KINDS some properties are. */
 function kindOf(properties) {
+  if (given(properties.medium)) return "gas";
   if (properties.sides === "mirror") return "mirror";
   if (given(properties.emission)) return "light";
   if (given(properties.temperature)) return "temperature";

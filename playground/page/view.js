@@ -158,7 +158,7 @@ export class View {
     const { low, high, columns } = this.image;
     const pixel = ((high[0] - low[0]) / (columns - 1)) * this.scale;
     for (const wall of scene.walls)
-      if (!wall.both && wall.kind !== "mirror") this.wipeBack(wall, pixel);
+      if (!wall.both && wall.kind !== "mirror" && wall.kind !== "gas") this.wipeBack(wall, pixel);
   }
 
   wipeBack(wall, pixel) {
@@ -202,9 +202,9 @@ export class View {
   paintWalls(scene) {
     this.context.lineCap = "round";
     for (const w of scene.walls) {
-      const mirror = w.kind === "mirror";
-      this.context.setLineDash(mirror ? [10, 4, 2, 4] : []);
-      this.line(this.toScreen(w.a), this.toScreen(w.b), mirror ? 2 : 4, DARK);
+      const dashes = { mirror: [10, 4, 2, 4], gas: [3, 4] }[w.kind];
+      this.context.setLineDash(dashes ?? []);
+      this.line(this.toScreen(w.a), this.toScreen(w.b), dashes ? 2 : 4, DARK);
     }
     this.context.setLineDash([]);
   }
